@@ -18,7 +18,7 @@ install() { # PACKAGE...: of Debian
 }
 
 # --- what a machine may lack -------------------------------------------------------------------------------------------------
-# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, archives, qemu, wine, firefox, slurm, robots, taplo, fuzz.
+# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, archives, qemu, wine, firefox, rerun, slurm, robots, taplo, fuzz.
 
 not_run=()
 skip() { # WHAT, WHY: said at once and in the last line
@@ -104,7 +104,7 @@ fetch_zig() {
 }
 python=$target/ci-python/bin/python
 fetch_python() {
-  "$python" -c 'import jsonschema, mcap, zstandard' 2>/dev/null && return
+  "$python" -c 'import foxglove_schemas_protobuf, jsonschema, mcap, zstandard' 2>/dev/null && return
   rm -rf "$target/ci-python"
   python3 -m venv "$target/ci-python" >/dev/null 2>&1 || { install python3-venv && python3 -m venv "$target/ci-python"; } || return 1
   "$target/ci-python/bin/pip" install --quiet --disable-pip-version-check --requirement tests/readers/requirements.txt

@@ -1,15 +1,18 @@
 """Reads MCAP logs with the Python reader, every CRC checked, and says what does not hold: read_log.py LOG...
 
 Exit code 0 if all is well, 1 if something is not; each finding is one line. Written without a look at the writer: from the MCAP
-specification and the schemas that Foxglove and Lichtblick know.
+specification and the schemas that Foxglove and Lichtblick know. Messages in protobuf are read by the descriptors of their log, and by
+Foxglove's own classes from `foxglove-schemas-protobuf`: both must know the same fields.
 """
 
+import importlib
 import json
 import math
 import pathlib
 import sys
 
 import jsonschema
+from google.protobuf import descriptor_pb2, descriptor_pool, json_format, message_factory
 from mcap.reader import NonSeekingReader, SeekingReader
 
 SCHEMAS = {
@@ -64,6 +67,42 @@ def world_from(transforms):
     return poses
 
 
+def messages_of(schema):
+    """The class of a schema's messages, made from its descriptors."""
+    files = descriptor_pb2.FileDescriptorSet.FromString(schema.data)
+    pool = descriptor_pool.DescriptorPool()
+    for file in files.file:
+        pool.Add(file)
+    return message_factory.GetMessageClass(pool.FindMessageTypeByName(schema.name))
+
+
+def fields_of(descriptor, seen=()):
+    """Every field of a message with those of the messages in it."""
+    if descriptor.full_name in seen:
+        return {}
+    seen = (*seen, descriptor.full_name)
+    return {
+        (field.name, field.number, field.type, field.is_repeated): field.message_type and fields_of(field.message_type, seen)
+        for field in descriptor.fields
+    }
+
+
+def official(name):
+    """Foxglove's own class of a message."""
+    module = importlib.import_module(f"foxglove_schemas_protobuf.{name}_pb2")
+    return getattr(module, name)
+
+
+def content_of(message):
+    """A message as JSON has it."""
+    return json_format.MessageToDict(
+        message,
+        always_print_fields_with_no_presence=True,
+        preserving_proto_field_name=True,
+        use_integers_for_enums=True,
+    )
+
+
 def place(pose):
     return [row[3] for row in pose]
 
@@ -104,24 +143,37 @@ def findings(path):
         yield f"metadata lacks {sorted(missing)}"
 
     validators = {}
+    classes = {}
     for channel in summary.channels.values():
         schema = summary.schemas.get(channel.schema_id)
-        if schema is None or schema.encoding != "jsonschema" or channel.message_encoding != "json":
-            yield f"{channel.topic} has no JSON schema"
-            continue
         if SCHEMAS.get(channel.topic, schema.name) != schema.name:
             yield f"{channel.topic} is a {schema.name}"
+        if schema.encoding == "protobuf" and channel.message_encoding == "protobuf":
+            own, theirs = messages_of(schema), official(schema.name.removeprefix("foxglove."))
+            if fields_of(own.DESCRIPTOR) != fields_of(theirs.DESCRIPTOR):
+                yield f"{channel.topic}: its fields are not those of {schema.name}"
+            classes[channel.topic] = (own, theirs)
+            continue
+        if schema.encoding != "jsonschema" or channel.message_encoding != "json":
+            yield f"{channel.topic} is {channel.message_encoding} with a schema in {schema.encoding}"
+            continue
         described = json.loads(schema.data)
         jsonschema.Draft202012Validator.check_schema(described)
         validators[channel.topic] = jsonschema.Draft202012Validator(described)
     seen = {}
     messages = {}
     for topic, time_ns, data in in_order:
-        content = json.loads(data)
+        if topic in classes:
+            own, theirs = (content_of(kind.FromString(data)) for kind in classes[topic])
+            if own != theirs:
+                yield f"{topic} at {time_ns} ns: Foxglove's own class reads another message"
+            content = own
+        else:
+            content = json.loads(data)
         messages.setdefault(topic, []).append((time_ns, content))
         seen[topic] = seen.get(topic, 0) + 1
         # the reader of the other language validates them all; here every twentieth does
-        if seen[topic] % 20 == 1 and (error := next(validators[topic].iter_errors(content), None)):
+        if topic in validators and seen[topic] % 20 == 1 and (error := next(validators[topic].iter_errors(content), None)):
             yield f"{topic} at {time_ns} ns: {error.message}"
 
     furthest = 0.0

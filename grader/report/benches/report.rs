@@ -6,6 +6,7 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::record::sample;
 use kinemark_report::log::{Attachment, mcap};
+use kinemark_report::output::LogRequest;
 use kinemark_report::{html::html, plot::plots, png::png, replay::Replay, storyboard::storyboard};
 
 fn report(criterion: &mut Criterion) {
@@ -43,13 +44,23 @@ fn report(criterion: &mut Criterion) {
         bytes: include_bytes!("../../../labs/robots/rrbot.toml"),
     }];
     criterion.bench_function("log of a run", |bencher| {
-        bencher.iter(|| mcap(black_box(run), &graded.grade, &attachments));
+        bencher.iter(|| {
+            mcap(
+                black_box(run),
+                &graded.grade,
+                &attachments,
+                LogRequest::default(),
+            )
+        });
     });
     criterion.bench_function("plots, page and log of a run", |bencher| {
         bencher.iter(|| {
             let drawn = vec![plots(black_box(run))];
             let page = html(&graded, &drawn);
-            (page, mcap(run, &graded.grade, &attachments))
+            (
+                page,
+                mcap(run, &graded.grade, &attachments, LogRequest::default()),
+            )
         });
     });
 }

@@ -2,6 +2,8 @@
 import { readFileSync } from "node:fs";
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import { decompress } from "fzstd";
+import protobuf from "protobufjs";
+import "protobufjs/ext/descriptor/index.js";
 
 const decompressHandlers = { zstd: (bytes, size) => decompress(bytes, new Uint8Array(Number(size))) };
 const text = new TextDecoder("utf-8", { fatal: true });
@@ -11,6 +13,34 @@ const once = (make) => {
   const made = new Map();
   return (path) => made.get(path) ?? made.set(path, make(path)).get(path);
 };
+
+/** What reads the messages of a schema: `{ encoding, data, name }` of MCAP. */
+export function decoder({ encoding, data, name }) {
+  if (encoding === "jsonschema") return (bytes) => JSON.parse(text.decode(bytes));
+  if (encoding !== "protobuf") throw new Error(`a schema in ${encoding}`);
+  const root = protobuf.Root.fromDescriptor(protobuf.descriptor.FileDescriptorSet.decode(data));
+  const type = root.lookupType(name);
+  // numbers of enumerations, and every field that has no presence of its own, as in the JSON form
+  const form = { enums: Number, longs: Number, arrays: true, defaults: false };
+  return (bytes) => inJsonForm(type, type.toObject(type.decode(bytes), form));
+}
+
+/** A message of protobuf as Foxglove's JSON form has it: times in `sec` and `nsec`, numbers and texts also where they are zero or empty. */
+function inJsonForm(type, message) {
+  if (/^\.google\.protobuf\.(Timestamp|Duration)$/.test(type.fullName)) return { sec: message.seconds ?? 0, nsec: message.nanos ?? 0 };
+  const all = {};
+  for (const field of type.fieldsArray) {
+    field.resolve();
+    const value = message[field.name];
+    const inner = field.resolvedType?.fieldsArray ? (one) => inJsonForm(field.resolvedType, one) : (one) => one;
+    // the name as the schema has it
+    const name = field.name.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
+    if (field.repeated) all[name] = (value ?? []).map(inner);
+    else if (value !== undefined) all[name] = inner(value);
+    else if (!field.hasPresence) all[name] = field.typeDefault;
+  }
+  return all;
+}
 
 /** All records in the order of the file, every CRC checked. */
 export const records = once((path) => {
@@ -31,9 +61,10 @@ export const log = once(async (path) => {
   };
   const reader = await McapIndexedReader.Initialize({ readable, decompressHandlers });
   const topics = new Map([...reader.channelsById.values()].map((channel) => [channel.topic, []]));
+  const decoders = new Map([...reader.schemasById.values()].map((schema) => [schema.id, decoder(schema)]));
   for await (const message of reader.readMessages({ validateCrcs: true })) {
-    const { topic } = reader.channelsById.get(message.channelId);
-    topics.get(topic).push({ ns: Number(message.logTime), content: JSON.parse(text.decode(message.data)) });
+    const { topic, schemaId } = reader.channelsById.get(message.channelId);
+    topics.get(topic).push({ ns: Number(message.logTime), content: decoders.get(schemaId)(message.data) });
   }
   const attachments = new Map();
   for await (const attachment of reader.readAttachments({ validateCrcs: true })) attachments.set(attachment.name, attachment);

@@ -4,6 +4,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
+import * as foxglove from "@foxglove/schemas/jsonschema";
 import Ajv from "ajv";
 import { courseLabs, grade, hardLabs, logsOf, reports, root } from "./graded.mjs";
 import { composed, distance, framesInWorld, inverse, log, poseOf, records } from "./log.mjs";
@@ -75,27 +76,33 @@ each("times begin at zero, do not go back, and are those in the messages", async
   }
 });
 
-each("schemas resolve, and every message is valid by its own", async ({ path }) => {
+const known = {
+  "/tf": "foxglove.FrameTransforms",
+  "/scene": "foxglove.SceneUpdate",
+  "/reference/tf": "foxglove.FrameTransforms",
+  "/reference/scene": "foxglove.SceneUpdate",
+  "/joint_states": "foxglove.JointStates",
+  "/log": "foxglove.Log",
+  "/tcp": "foxglove.PoseInFrame",
+};
+const described = (schema) => JSON.parse(new TextDecoder().decode(schema.data));
+const official = (name) => JSON.parse(JSON.stringify(foxglove[name.replace("foxglove.", "")]));
+
+/** Every message of a log against the schemas: its own where it is JSON, Foxglove's where it is protobuf. */
+async function valid(path, encodings) {
   const { reader, topics } = await log(path);
-  const known = {
-    "/tf": "foxglove.FrameTransforms",
-    "/scene": "foxglove.SceneUpdate",
-    "/reference/tf": "foxglove.FrameTransforms",
-    "/reference/scene": "foxglove.SceneUpdate",
-    "/joint_states": "foxglove.JointStates",
-    "/log": "foxglove.Log",
-    "/tcp": "foxglove.PoseInFrame",
-  };
   for (const channel of reader.channelsById.values()) {
     const schema = reader.schemasById.get(channel.schemaId);
-    assert.equal(schema.encoding, "jsonschema");
-    assert.equal(channel.messageEncoding, "json");
-    const described = JSON.parse(new TextDecoder().decode(schema.data));
-    assert.equal(described.title, schema.name);
-    if (channel.topic in known) assert.equal(schema.name, known[channel.topic]);
+    const isKnown = channel.topic in known;
+    assert.deepEqual([schema.encoding, channel.messageEncoding], isKnown ? encodings : ["jsonschema", "json"], channel.topic);
+    if (isKnown) assert.equal(schema.name, known[channel.topic]);
     else assert.match(schema.name, /^kinemark\./);
+    // of Foxglove's schemas every word is theirs: a viewer may refuse another one
+    if (isKnown && schema.encoding === "jsonschema") assert.deepEqual(described(schema), official(schema.name));
+    const rules = isKnown ? official(schema.name) : described(schema);
+    assert.equal(rules.title, schema.name);
     // a message with a field that its schema does not know is no message of it
-    const closed = JSON.stringify(described, (_, value) => (value?.properties ? { ...value, additionalProperties: false } : value));
+    const closed = JSON.stringify(rules, (_, value) => (value?.properties ? { ...value, additionalProperties: false } : value));
     const valid = new Ajv({ strict: false }).compile(JSON.parse(closed));
     for (const { content, ns } of topics.get(channel.topic)) {
       assert.ok(valid(content), `${channel.topic} at ${ns}: ${JSON.stringify(valid.errors)}`);
@@ -105,6 +112,24 @@ each("schemas resolve, and every message is valid by its own", async ({ path }) 
         for (const value of Object.values(content)) assert.equal(typeof value, "number", `${channel.topic} is not flat`);
       }
     }
+  }
+}
+
+each("every message is valid by Foxglove's schemas, or by its own", ({ path }) => valid(path, ["protobuf", "protobuf"]));
+
+test("a log in JSON has Foxglove's own schemas, and says the same", async () => {
+  const again = mkdtempSync(join(tmpdir(), "kinemark-json-"));
+  try {
+    const lab = "04-knock-with-velocity";
+    grade(lab, join(root, "tests/submissions", lab, "good/submission.rhai"), join(again, lab), "--log", "json");
+    for (const { path, task } of logsOf(join(again, lab))) {
+      await valid(path, ["jsonschema", "json"]);
+      const [text, binary] = await Promise.all([log(path), log(join(folder, lab, task, "run.mcap"))]);
+      assert.deepEqual([...text.topics.keys()], [...binary.topics.keys()]);
+      for (const [topic, messages] of text.topics) assert.deepEqual(messages, binary.topics.get(topic), topic);
+    }
+  } finally {
+    rmSync(again, { recursive: true, force: true });
   }
 });
 

@@ -14,7 +14,9 @@ use kinemark_grader::submission::host::{Host, InProcess};
 use kinemark_grader::submission::not_text::absent;
 use kinemark_grader::task::files::Files;
 
-use kinemark_report::output::{PAGE_FILE, ReportRequest, STORYBOARD_FILE};
+use kinemark_report::output::{
+    Encoding, LogRequest, MOST_SIGNAL_RATE_HZ, PAGE_FILE, ReportRequest, STORYBOARD_FILE,
+};
 use kinemark_report::short_text::short_text;
 use serde::Serialize;
 
@@ -72,6 +74,12 @@ pub(crate) struct Args {
     /// Write a storyboard of each motion task: six moments of the run in one picture, TASK/storyboard.png and .svg
     #[arg(long)]
     pub(crate) storyboard: bool,
+    /// How messages that viewers know are written in logs: protobuf, which all of them read, or JSON, for programs of your own
+    #[arg(long, value_enum, value_name = "ENCODING", default_value = "protobuf")]
+    pub(crate) log: LogEncoding,
+    /// Signals a second in logs; there are no more than physics steps [default: 100]
+    #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SIGNAL_RATE_HZ)))]
+    pub(crate) log_rate: Option<u32>,
     /// Grade on so many other variants as well, in practice: a number that is typed in shows there
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
     pub(crate) variants: Option<u32>,
@@ -95,6 +103,13 @@ pub(crate) enum Format {
     Full,
     /// `FILE:LINE:COLUMN: KIND: WORDS`, a line each.
     Short,
+}
+
+/// How messages that viewers know are written in logs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum LogEncoding {
+    Protobuf,
+    Json,
 }
 
 /// What was typed, with what was left out filled in.
@@ -304,6 +319,13 @@ pub(crate) fn write(request: &Request<'_>, work: &Work) -> Result<(), Failure> {
         reference_overlay: args.reference_overlay,
         png: args.png,
         storyboard: args.storyboard,
+        log: LogRequest {
+            encoding: match args.log {
+                LogEncoding::Protobuf => Encoding::Protobuf,
+                LogEncoding::Json => Encoding::Json,
+            },
+            rate_hz: args.log_rate,
+        },
     };
     report_folder::write(
         &request.out,

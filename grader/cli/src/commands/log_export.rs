@@ -25,7 +25,7 @@ use crate::{output, report_folder};
     kinemark log export out/move/run.mcap --csv --topic /signals > signals.csv\n\n\
     Writes a CSV file per topic to the folder run-csv beside the log, with export.json, which lists them; an earlier export \
     there is replaced.\n\
-    Reads every MCAP log with JSON messages. See docs/watch-and-compare.md.\n\
+    Reads every MCAP log with JSON messages, or with protobuf messages and their schemas. See docs/watch-and-compare.md.\n\
     Exit codes: 0 written, 2 usage, 3 the log is broken, 4 the tables cannot be written."
 )]
 pub(crate) struct Args {

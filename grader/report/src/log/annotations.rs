@@ -2,13 +2,14 @@
 
 use std::borrow::Cow;
 
+use foxglove::messages::Log;
+use foxglove::messages::log::Level;
 use kinemark_sim::watch::event::EventKind;
 
 use super::mcap::LogError;
-use super::message::{Flat, Level, Log, Time};
-use super::messages::{Messages, SIGNAL_RATE_HZ};
+use super::message::time;
+use super::messages::Messages;
 use super::names::fields;
-use super::schema;
 use crate::visible::visible;
 
 impl Messages<'_> {
@@ -24,11 +25,7 @@ impl Messages<'_> {
             .zip(&run.trace.plots)
             .map(|(name, plot)| (name.clone(), visible(&plot.name).into_owned()))
             .collect();
-        let topic = self.topic(
-            "/plots",
-            "kinemark.Plots",
-            schema::flat("kinemark.Plots", &described),
-        );
+        let topic = self.flat_topic("/plots", "kinemark.Plots", &described);
         let mut samples: Vec<(u64, usize, f64)> = Vec::new();
         for (i, plot) in run.trace.plots.iter().enumerate() {
             samples.extend(plot.samples.iter().map(|(tick, value)| (*tick, i, *value)));
@@ -44,7 +41,7 @@ impl Messages<'_> {
                     _ => values.push((name, *value)),
                 }
             }
-            self.message(topic, self.ns(at_tick[0].0), &Flat { values })?;
+            self.numbers(topic, self.ns(at_tick[0].0), values)?;
         }
         Ok(())
     }
@@ -61,8 +58,7 @@ impl Messages<'_> {
                 ("zero", "earns none"),
             ];
             let described = described.map(|(name, what)| (name.to_owned(), what.to_owned()));
-            let schema = schema::flat("kinemark.Judged", &described);
-            let topic = self.topic(format!("/checks/{name}"), "kinemark.Judged", schema);
+            let topic = self.flat_topic(format!("/checks/{name}"), "kinemark.Judged", &described);
             let mut next_s = f64::NEG_INFINITY;
             let last = curve.t_s.len().saturating_sub(1);
             for (i, (t_s, value)) in curve.t_s.iter().zip(&curve.values).enumerate() {
@@ -71,11 +67,11 @@ impl Messages<'_> {
                     continue;
                 }
                 // a hair early, so that rounding does not skip every second one
-                next_s = t_s + 0.999 / SIGNAL_RATE_HZ;
+                next_s = t_s + 0.999 / self.signal_rate_hz;
                 let mut values = vec![("value", *value)];
                 values.extend(curve.full.map(|full| ("full", full)));
                 values.extend(curve.zero.map(|zero| ("zero", zero)));
-                self.message(topic, (t_s * 1e9).round() as u64, &Flat { values })?;
+                self.numbers(topic, (t_s * 1e9).round() as u64, values)?;
             }
         }
         Ok(())
@@ -84,7 +80,7 @@ impl Messages<'_> {
     /// Events, printed lines, and the moments checks marked.
     pub(super) fn lines(&mut self) -> Result<(), LogError> {
         let run = self.run;
-        let topic = self.topic("/log", "foxglove.Log", schema::log());
+        let topic = self.known_topic::<Log>("/log")?;
         let mut lines: Vec<(u64, Level, Cow<'_, str>, &str)> = Vec::new();
         let names = run.names();
         for event in &run.trace.events {
@@ -130,11 +126,11 @@ impl Messages<'_> {
         }
         for (ns, level, message, name) in lines {
             let line = Log {
-                timestamp: Time::from_ns(ns),
-                level,
-                message: &visible(&message),
-                name,
-                file: "",
+                timestamp: Some(time(ns)),
+                level: level as i32,
+                message: visible(&message).into_owned(),
+                name: name.to_owned(),
+                file: String::new(),
                 line: 0,
             };
             self.message(topic, ns, &line)?;

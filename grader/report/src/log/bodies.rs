@@ -1,8 +1,9 @@
 //! The bodies of a scene as frames under the world.
 
+use foxglove::messages::{FrameTransform, FrameTransforms, Pose, Timestamp};
 use kinemark_sim::trace::Trace;
 
-use super::message::{FrameTransform, FrameTransforms, Pose, Time};
+use super::message::pose;
 use super::names::{REFERENCE, WORLD, body_frame};
 use kinemark_grader::record::graded::TaskRun;
 
@@ -17,7 +18,7 @@ impl Bodies {
         let bodies = run.scene.iter().flat_map(|scene| &scene.scene.bodies);
         let frame = |(index, body): (usize, &kinemark_sim::model::scene::SceneBody)| {
             let moves = run.trace.moving_bodies.contains(&index);
-            let stands = (!moves).then(|| Pose::new(&body.world_from_body));
+            let stands = (!moves).then(|| pose(&body.world_from_body));
             (index, body_frame(&body.name), stands)
         };
         Self {
@@ -40,27 +41,27 @@ impl Bodies {
     }
 
     /// Adds where every body is at `tick`; one whose pose is not finite is left out.
-    pub(super) fn add<'a>(
-        &'a self,
+    pub(super) fn add(
+        &self,
         trace: &Trace,
         tick: usize,
-        timestamp: Time,
-        to: &mut FrameTransforms<'a>,
+        timestamp: Timestamp,
+        to: &mut FrameTransforms,
     ) {
         for (index, name, stands) in &self.frames {
-            let pose = match (stands, trace.world_from_body(*index, tick)) {
-                (Some(pose), _) => *pose,
-                (None, Some(pose)) if pose.translation.vector.iter().all(|x| x.is_finite()) => {
-                    Pose::new(&pose)
+            let at = match (stands, trace.world_from_body(*index, tick)) {
+                (Some(stands), _) => *stands,
+                (None, Some(moved)) if moved.translation.vector.iter().all(|x| x.is_finite()) => {
+                    pose(&moved)
                 }
                 (None, _) => continue,
             };
             to.transforms.push(FrameTransform {
-                timestamp,
-                parent_frame_id: WORLD,
-                child_frame_id: name,
-                translation: pose.position,
-                rotation: pose.orientation,
+                timestamp: Some(timestamp),
+                parent_frame_id: WORLD.to_owned(),
+                child_frame_id: name.clone(),
+                translation: at.position,
+                rotation: at.orientation,
             });
         }
     }

@@ -1,14 +1,17 @@
-//! A log as tables for spreadsheets: a CSV file per topic, a row per message, numbers with all their digits.
+//! A log as tables for spreadsheets: a CSV file per topic, a row per message, numbers with all their digits. Messages may be JSON, or
+//! protobuf with its descriptors.
 
 use std::cell::Cell;
 use std::collections::{BTreeMap, HashMap};
 use std::io::Write;
 use std::sync::Arc;
 
-use ::mcap::Schema;
+use ::mcap::{Channel, Schema};
+use prost_reflect::MessageDescriptor;
 
 use super::columns::{Budget, Columns, MOST_COLUMNS, MOST_NAME, TIME, TooWide, parts, walk};
 use super::json::Json;
+use super::protobuf;
 use super::read::{LogMessage, ReadError, messages, most_of};
 
 /// Tables that are larger, all together, open nowhere.
@@ -34,9 +37,9 @@ pub struct Table {
 /// What a log holds.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Tables {
-    /// Topics whose messages are JSON, in the order of their first messages.
+    /// Topics whose messages are read, in the order of their first messages.
     pub tables: Vec<Table>,
-    /// Topics whose messages are not, each with its encoding.
+    /// Topics whose messages are not read, each with its encoding.
     pub foreign: Vec<(String, String)>,
 }
 
@@ -44,20 +47,22 @@ pub struct Tables {
 struct Found {
     table: Table,
     columns: Columns,
+    form: Form,
     schema: Option<Arc<Schema<'static>>>,
 }
 
 /// Reads a log through: which tables it makes, each with its rows and columns.
 ///
 /// # Errors
-/// [`ReadError`] for a log that is damaged, cut off, no log, too large, or without a JSON message.
+/// [`ReadError`] for a log that is damaged, cut off, no log, too large, or without a message that is read.
 pub fn tables(log: &[u8]) -> Result<Tables, ReadError> {
     let mut found: Vec<Found> = Vec::new();
     let mut foreign: Vec<(String, String)> = Vec::new();
     let mut left = Budget::default();
     messages(log, &mut |message| {
         let topic = message.channel.topic.as_str();
-        if !is_json(&message) {
+        let at = found.iter().position(|found| found.table.topic == topic);
+        if !Form::is_read(message.channel) {
             let encoding = message.channel.message_encoding.as_str();
             if !foreign
                 .iter()
@@ -68,7 +73,7 @@ pub fn tables(log: &[u8]) -> Result<Tables, ReadError> {
             }
             return Ok(());
         }
-        let at = match found.iter().position(|found| found.table.topic == topic) {
+        let at = match at {
             Some(at) => at,
             None => {
                 bounded(found.len() + foreign.len())?;
@@ -81,14 +86,20 @@ pub fn tables(log: &[u8]) -> Result<Tables, ReadError> {
                 found.push(Found {
                     table,
                     columns: Columns::default(),
+                    form: Form::of(message.channel)?,
                     schema: message.channel.schema.clone(),
                 });
                 found.len() - 1
             }
         };
-        let Found { table, columns, .. } = &mut found[at];
+        let Found {
+            table,
+            columns,
+            form,
+            ..
+        } = &mut found[at];
         table.rows += 1;
-        let value = parse(&message, table.rows)?;
+        let value = form.parse(&message, table.rows)?;
         let learnt = columns.learn(&value, &mut left);
         learnt.map_err(|why| too_wide(topic, why))
     })?;
@@ -100,7 +111,7 @@ pub fn tables(log: &[u8]) -> Result<Tables, ReadError> {
         return Err(if topics.is_empty() {
             ReadError::NoMessages
         } else {
-            ReadError::NoJson { topics }
+            ReadError::Unread { topics }
         });
     }
     let tables = found.into_iter().map(|found| {
@@ -142,6 +153,7 @@ pub fn write_csv<W: Write>(
             writer,
             at: table.columns.iter().map(AsRef::as_ref).zip(1..).collect(),
             row: vec![String::new(); table.columns.len() + 1],
+            form: None,
             written: 0,
         };
         writer.head()?;
@@ -150,7 +162,7 @@ pub fn write_csv<W: Write>(
     messages(log, &mut |message| {
         let topic = message.channel.topic.as_str();
         match writers.iter_mut().find(|rows| rows.table.topic == topic) {
-            Some(rows) if is_json(&message) => rows.row(&message),
+            Some(rows) if Form::is_read(message.channel) => rows.row(&message),
             _ => Ok(()),
         }
     })?;
@@ -168,6 +180,8 @@ struct Rows<'a, W: Write> {
     at: HashMap<&'a str, usize>,
     /// The row being written, used again for the next.
     row: Vec<String>,
+    /// How its messages are written, once one has come.
+    form: Option<Form>,
     written: u64,
 }
 
@@ -180,7 +194,12 @@ impl<W: Write> Rows<'_, W> {
 
     fn row(&mut self, message: &LogMessage<'_>) -> Result<(), ReadError> {
         self.written += 1;
-        let value = parse(message, self.written)?;
+        let form = match self.form.take() {
+            Some(form) => form,
+            None => Form::of(message.channel)?,
+        };
+        let value = form.parse(message, self.written)?;
+        self.form = Some(form);
         self.row.iter_mut().for_each(String::clear);
         self.row[0] = time_s(message.log_time_ns);
         let (at, row) = (&self.at, &mut self.row);
@@ -242,16 +261,57 @@ fn described(schema: &Schema<'_>, columns: &[Arc<str>]) -> BTreeMap<Arc<str>, St
     described.collect()
 }
 
-fn is_json(message: &LogMessage<'_>) -> bool {
-    message.channel.message_encoding == "json"
+/// How the messages of a topic are written.
+#[derive(Debug, Clone)]
+enum Form {
+    Json,
+    Protobuf(MessageDescriptor),
 }
 
-fn parse(message: &LogMessage<'_>, number: u64) -> Result<Json, ReadError> {
-    Json::parse(message.data).map_err(|error| ReadError::Json {
-        topic: message.channel.topic.clone(),
-        number,
-        why: error.to_string(),
-    })
+impl Form {
+    fn is_read(channel: &Channel<'_>) -> bool {
+        let schema = channel.schema.as_ref();
+        match channel.message_encoding.as_str() {
+            "json" => true,
+            "protobuf" => schema.is_some_and(|schema| schema.encoding == "protobuf"),
+            _ => false,
+        }
+    }
+
+    /// That of a channel that is read.
+    fn of(channel: &Channel<'_>) -> Result<Self, ReadError> {
+        match &channel.schema {
+            Some(schema) if channel.message_encoding == "protobuf" => {
+                let described = protobuf::described(&schema.name, &schema.data);
+                described
+                    .map(Self::Protobuf)
+                    .map_err(|why| ReadError::Schema {
+                        topic: channel.topic.clone(),
+                        why,
+                    })
+            }
+            _ => Ok(Self::Json),
+        }
+    }
+
+    fn parse(&self, message: &LogMessage<'_>, number: u64) -> Result<Json, ReadError> {
+        let (parsed, form) = match self {
+            Self::Json => {
+                let parsed = Json::parse(message.data);
+                (parsed.map_err(|error| error.to_string()), "JSON".to_owned())
+            }
+            Self::Protobuf(described) => {
+                let parsed = protobuf::parse(described, message.data);
+                (parsed, format!("`{}` in protobuf", described.full_name()))
+            }
+        };
+        parsed.map_err(|why| ReadError::Message {
+            topic: message.channel.topic.clone(),
+            number,
+            form,
+            why,
+        })
+    }
 }
 
 fn bounded(topics: usize) -> Result<(), ReadError> {

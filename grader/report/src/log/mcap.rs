@@ -8,6 +8,7 @@ use mcap::records::{MessageHeader, Metadata};
 use mcap::{Compression, WriteOptions};
 
 use super::messages::Messages;
+use crate::output::LogRequest;
 use crate::visible::visible;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::graded::TaskRun;
@@ -32,14 +33,18 @@ pub enum LogError {
     /// A message has no JSON form.
     #[error("a message cannot be written as JSON: {0}")]
     Json(#[from] serde_json::Error),
+    /// A message has no binary form.
+    #[error("a message cannot be written as protobuf: {0}")]
+    Message(String),
 }
 
 /// Writes the log of `run`, with the digests of `grade` as metadata and `attachments` beside the messages.
 ///
 /// Topics: `/tf`, `/tcp` and `/joint_states` at 60 Hz, first and last tick included; `/scene` and `/reference/scene` once; `/reference/tf`, where the run brings the
 /// reference solution's motion, at 60 Hz;
-/// `/signals`, `/sensors` and `/errors` at 100 Hz; `/plots` what the submission drew; `/checks/...` what checks judged; `/log` events and
-/// printed lines. Messages are JSON; poses are rounded to nanometres, all else is as it was computed. The same run gives the same bytes.
+/// `/signals`, `/sensors` and `/errors` at 100 Hz or the rate of `request`; `/plots` what the submission drew; `/checks/...` what checks
+/// judged; `/log` events and printed lines. Messages with Foxglove's schemas are protobuf or JSON, flat numbers are JSON; poses are rounded
+/// to nanometres, all else is as it was computed. The same run gives the same bytes.
 ///
 /// # Errors
 /// [`LogError`] if the writer refuses, which no run of a robot should make it do.
@@ -47,8 +52,9 @@ pub fn mcap(
     run: &TaskRun,
     grade: &Grade,
     attachments: &[Attachment<'_>],
+    request: LogRequest,
 ) -> Result<Vec<u8>, LogError> {
-    write(Messages::gather(run)?, grade, attachments)
+    write(Messages::gather(run, request)?, grade, attachments)
 }
 
 fn write(
@@ -64,9 +70,14 @@ fn write(
     let mut writer = options.create(Cursor::new(Vec::new()))?;
     let mut channels = Vec::new();
     for topic in &log.topics {
-        let data = serde_json::to_vec(&topic.schema)?;
-        let schema = writer.add_schema(&topic.schema_name, "jsonschema", &data)?;
-        channels.push(writer.add_channel(schema, &topic.topic, "json", &BTreeMap::new())?);
+        let schema = &topic.schema;
+        let id = writer.add_schema(&schema.name, schema.encoding, &schema.data)?;
+        channels.push(writer.add_channel(
+            id,
+            &topic.topic,
+            schema.of_messages,
+            &BTreeMap::new(),
+        )?);
     }
     // stable, so that messages of one instant keep the order of their topics
     log.messages.sort_by_key(|message| message.log_time_ns);
@@ -144,7 +155,10 @@ fn seeds(run: &TaskRun) -> String {
 mod tests {
     use serde_json::{Value, json};
 
+    use super::super::json::Json;
+    use super::super::protobuf;
     use super::*;
+    use crate::output::Encoding;
     use kinemark_grader::record::sample;
 
     fn written(run: &TaskRun) -> Vec<u8> {
@@ -153,7 +167,27 @@ mod tests {
             media_type: "application/toml",
             bytes: b"format = 1",
         }];
-        mcap(run, &sample::graded().grade, &attachments).unwrap()
+        let graded = sample::graded();
+        mcap(run, &graded.grade, &attachments, LogRequest::default()).unwrap()
+    }
+
+    fn written_as(run: &TaskRun, encoding: Encoding, rate_hz: Option<u32>) -> Vec<u8> {
+        let request = LogRequest { encoding, rate_hz };
+        mcap(run, &sample::graded().grade, &[], request).unwrap()
+    }
+
+    fn value(json: Json) -> Value {
+        match json {
+            Json::Null => Value::Null,
+            Json::Bool(value) => value.into(),
+            Json::Number(number) => Value::Number(number),
+            Json::Text(text) => text.into(),
+            Json::List(items) => items.into_iter().map(value).collect(),
+            Json::Object(members) => members
+                .into_iter()
+                .map(|(name, member)| (name, value(member)))
+                .collect(),
+        }
     }
 
     /// Topic, schema, time and content of every message, as the reader gives them; it checks every CRC.
@@ -161,16 +195,22 @@ mod tests {
         let messages = ::mcap::MessageStream::new(bytes).unwrap().map(|message| {
             let message = message.unwrap();
             let schema = message.channel.schema.as_ref().unwrap();
-            assert_eq!(
-                (
-                    schema.encoding.as_str(),
-                    message.channel.message_encoding.as_str()
-                ),
-                ("jsonschema", "json")
+            let encodings = (
+                schema.encoding.as_str(),
+                message.channel.message_encoding.as_str(),
             );
-            let described: Value = serde_json::from_slice(&schema.data).unwrap();
-            assert_eq!(described["title"], json!(schema.name));
-            let content = serde_json::from_slice(&message.data).unwrap();
+            let content = match encodings {
+                ("jsonschema", "json") => {
+                    let described: Value = serde_json::from_slice(&schema.data).unwrap();
+                    assert_eq!(described["title"], json!(schema.name));
+                    serde_json::from_slice(&message.data).unwrap()
+                }
+                ("protobuf", "protobuf") => {
+                    let described = protobuf::described(&schema.name, &schema.data).unwrap();
+                    value(protobuf::parse(&described, &message.data).unwrap())
+                }
+                other => panic!("{other:?}"),
+            };
             (
                 message.channel.topic.clone(),
                 schema.name.clone(),
@@ -328,6 +368,34 @@ mod tests {
             };
             assert_eq!(name, expected);
         }
+    }
+
+    #[test]
+    fn both_encodings_say_the_same() {
+        let mut run = sample::task_run();
+        run.reference_overlay = Some(sample::stopped_after(700).trace);
+        let [binary, text] = [Encoding::Protobuf, Encoding::Json]
+            .map(|encoding| read(&written_as(&run, encoding, None)));
+        assert_eq!(binary.len(), text.len());
+        for (binary, text) in binary.iter().zip(&text) {
+            assert_eq!(binary, text);
+        }
+    }
+
+    #[test]
+    fn signals_have_the_rate_that_is_asked_for() {
+        let run = sample::task_run();
+        let count = |rate_hz| {
+            let messages = read(&written_as(&run, Encoding::Protobuf, rate_hz));
+            messages
+                .iter()
+                .filter(|message| message.0 == "/signals")
+                .count()
+        };
+        // eight seconds, and the first tick
+        assert_eq!([None, Some(10), Some(1000)].map(count), [801, 81, 8001]);
+        // no more than there are ticks
+        assert_eq!(count(Some(10_000)), 8001);
     }
 
     #[test]

@@ -1,31 +1,15 @@
-//! The messages of a log, as they are written.
+//! Parts of the messages of a log: Foxglove's own types, filled from those of the simulator, and flat numbers.
 
+use foxglove::messages::{Point3, Pose, Quaternion, Timestamp, Vector3};
 use kinemark_sim::spatial::Pose as Isometry;
-use kinemark_sim::trace::quaternion;
+use kinemark_sim::trace::quaternion as elements_of;
 use serde::ser::SerializeMap;
 use serde::{Serialize, Serializer};
 
-/// Simulated time.
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Time {
-    sec: u64,
-    nsec: u64,
-}
-
-impl Time {
-    pub(super) fn from_ns(ns: u64) -> Self {
-        Self {
-            sec: ns / 1_000_000_000,
-            nsec: ns % 1_000_000_000,
-        }
-    }
-}
-
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Vector {
-    x: f64,
-    y: f64,
-    z: f64,
+/// Simulated time; what is beyond the clock of the messages, 136 years, is its end.
+pub(super) fn time(ns: u64) -> Timestamp {
+    let sec = u32::try_from(ns / 1_000_000_000).unwrap_or(u32::MAX);
+    Timestamp::new(sec, (ns % 1_000_000_000) as u32)
 }
 
 /// A billionth is far below what a viewer shows; digits beyond it are noise that does not compress.
@@ -37,126 +21,48 @@ fn rounded(value: f64) -> f64 {
     (value * 1e9).round() / 1e9 + 0.0
 }
 
-impl Vector {
-    /// Rounded to nanometres.
-    pub(super) fn new(metres: [f64; 3]) -> Self {
-        let [x, y, z] = metres.map(rounded);
-        Self { x, y, z }
-    }
-
-    pub(super) fn is_finite(&self) -> bool {
-        self.x.is_finite() && self.y.is_finite() && self.z.is_finite()
-    }
+/// Rounded to nanometres.
+pub(super) fn vector(metres: [f64; 3]) -> Vector3 {
+    let [x, y, z] = metres.map(rounded);
+    Vector3 { x, y, z }
 }
 
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Quaternion {
-    x: f64,
-    y: f64,
-    z: f64,
-    w: f64,
+/// Rounded to nanometres; none where a coordinate is not finite.
+pub(super) fn point(metres: [f64; 3]) -> Option<Point3> {
+    let [x, y, z] = metres.map(rounded);
+    let is_finite = x.is_finite() && y.is_finite() && z.is_finite();
+    is_finite.then_some(Point3 { x, y, z })
 }
 
-#[derive(Debug, Clone, Copy, Serialize)]
-pub(super) struct Pose {
-    pub(super) position: Vector,
-    pub(super) orientation: Quaternion,
+/// From `[w, x, y, z]`, each element rounded to a billionth.
+pub(super) fn quaternion(elements: [f64; 4]) -> Quaternion {
+    let [w, x, y, z] = elements.map(rounded);
+    Quaternion { x, y, z, w }
 }
 
-impl Quaternion {
-    /// From `[w, x, y, z]`, each element rounded to a billionth.
-    pub(super) fn new(elements: [f64; 4]) -> Self {
-        let [w, x, y, z] = elements.map(rounded);
-        Self { x, y, z, w }
+/// Position and orientation, rounded as they are alone.
+pub(super) fn pose(pose: &Isometry) -> Pose {
+    let p = pose.translation.vector;
+    Pose {
+        position: Some(vector([p.x, p.y, p.z])),
+        orientation: Some(quaternion(elements_of(pose.rotation.matrix()))),
     }
 }
 
-impl Pose {
-    pub(super) fn new(pose: &Isometry) -> Self {
-        let p = pose.translation.vector;
-        Self {
-            position: Vector::new([p.x, p.y, p.z]),
-            orientation: Quaternion::new(quaternion(pose.rotation.matrix())),
-        }
-    }
-
-    /// At a place, with the axes of its frame.
-    pub(super) fn at(position_m: [f64; 3]) -> Self {
-        Self {
-            position: Vector::new(position_m),
-            orientation: Quaternion::new([1.0, 0.0, 0.0, 0.0]),
-        }
+/// At a place, with the axes of its frame.
+pub(super) fn pose_at(position_m: [f64; 3]) -> Pose {
+    Pose {
+        position: Some(vector(position_m)),
+        orientation: Some(quaternion([1.0, 0.0, 0.0, 0.0])),
     }
 }
 
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct FrameTransform<'a> {
-    pub(super) timestamp: Time,
-    pub(super) parent_frame_id: &'a str,
-    pub(super) child_frame_id: &'a str,
-    pub(super) translation: Vector,
-    pub(super) rotation: Quaternion,
+/// A number of a message that may be absent: what is not finite is left out.
+pub(super) fn finite(value: f64) -> Option<f64> {
+    value.is_finite().then_some(value)
 }
 
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct FrameTransforms<'a> {
-    pub(super) transforms: Vec<FrameTransform<'a>>,
-}
-
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct PoseInFrame<'a> {
-    pub(super) timestamp: Time,
-    pub(super) frame_id: &'a str,
-    pub(super) pose: Pose,
-}
-
-/// What is not finite is left out: JSON has no such number.
-fn absent(value: &f64) -> bool {
-    !value.is_finite()
-}
-
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct JointState<'a> {
-    pub(super) name: &'a str,
-    #[serde(skip_serializing_if = "absent")]
-    pub(super) position: f64,
-    #[serde(skip_serializing_if = "absent")]
-    pub(super) velocity: f64,
-    #[serde(skip_serializing_if = "absent")]
-    pub(super) effort: f64,
-}
-
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct JointStates<'a> {
-    pub(super) timestamp: Time,
-    pub(super) joints: Vec<JointState<'a>>,
-}
-
-/// How loud a line of the log is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Level {
-    Info = 2,
-    Warning = 3,
-    Error = 4,
-}
-
-impl Serialize for Level {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_u8(*self as u8)
-    }
-}
-
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct Log<'a> {
-    pub(super) timestamp: Time,
-    pub(super) level: Level,
-    pub(super) message: &'a str,
-    pub(super) name: &'a str,
-    pub(super) file: &'a str,
-    pub(super) line: u32,
-}
-
-/// Named numbers; those that are not finite are left out.
+/// Named numbers; those that are not finite are left out, for JSON has no such number.
 #[derive(Debug, Clone)]
 pub(super) struct Flat<'a> {
     pub(super) values: Vec<(&'a str, f64)>,

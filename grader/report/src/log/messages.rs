@@ -1,19 +1,21 @@
 //! The messages of a log: gathered topic by topic, each with its time and the schema it keeps to.
 
-use serde::Serialize;
-use serde_json::Value;
+use foxglove::Encode;
+use prost_reflect::MessageDescriptor;
 
 use super::mcap::LogError;
+use super::message::Flat;
+use super::protobuf;
+use super::schema::{self, Schema};
+use crate::output::{Encoding, LogRequest};
 use kinemark_grader::record::graded::TaskRun;
-
-/// Flat signals a second; those of the submission and of checks at most so many.
-pub(super) const SIGNAL_RATE_HZ: f64 = 100.0;
 
 /// A channel to be: its topic and the schema of its messages.
 pub(super) struct Topic {
     pub(super) topic: String,
-    pub(super) schema_name: String,
-    pub(super) schema: Value,
+    pub(super) schema: Schema,
+    /// By which its messages become JSON, where they do.
+    into_json: Option<MessageDescriptor>,
 }
 
 /// A message to be.
@@ -27,6 +29,10 @@ pub(super) struct Message {
 /// The messages of a run, gathered by topic and then written by time.
 pub(super) struct Messages<'a> {
     pub(super) run: &'a TaskRun,
+    /// How messages of Foxglove's are written.
+    encoding: Encoding,
+    /// Flat signals a second; those of the submission and of checks at most so many.
+    pub(super) signal_rate_hz: f64,
     pub(super) topics: Vec<Topic>,
     pub(super) messages: Vec<Message>,
     pub(super) bytes: Vec<u8>,
@@ -34,8 +40,8 @@ pub(super) struct Messages<'a> {
 
 impl<'a> Messages<'a> {
     /// All messages of a run.
-    pub(super) fn gather(run: &'a TaskRun) -> Result<Self, LogError> {
-        let mut log = Self::new(run);
+    pub(super) fn gather(run: &'a TaskRun, request: LogRequest) -> Result<Self, LogError> {
+        let mut log = Self::new(run, request);
         log.scenes()?;
         log.motion()?;
         log.ghost()?;
@@ -48,45 +54,94 @@ impl<'a> Messages<'a> {
         Ok(log)
     }
 
-    fn new(run: &'a TaskRun) -> Self {
+    fn new(run: &'a TaskRun, request: LogRequest) -> Self {
         Self {
             run,
+            encoding: request.encoding,
+            signal_rate_hz: request.signal_rate_hz(),
             topics: Vec::new(),
             messages: Vec::new(),
             bytes: Vec::new(),
         }
     }
 
-    pub(super) fn topic(
+    /// A topic of flat numbers, which are JSON always: they have the names that joints, sensors and students have.
+    pub(super) fn flat_topic(
         &mut self,
         topic: impl Into<String>,
-        schema_name: impl Into<String>,
-        mut schema: Value,
+        title: &str,
+        fields: &[(String, String)],
     ) -> usize {
-        // whether a JSON map is sorted depends on how its crate was built; the bytes must not
-        schema.sort_all_objects();
+        self.topic(topic.into(), schema::flat(title, fields), None)
+    }
+
+    /// A topic of messages of Foxglove's.
+    pub(super) fn known_topic<M: Encode>(&mut self, topic: &str) -> Result<usize, LogError> {
+        let binary = schema::protobuf::<M>();
+        let topic = topic.to_owned();
+        match self.encoding {
+            Encoding::Protobuf => Ok(self.topic(topic, binary, None)),
+            Encoding::Json => {
+                let described = protobuf::described(&binary.name, &binary.data);
+                let described = described.map_err(LogError::Message)?;
+                Ok(self.topic(topic, schema::json_of::<M>(), Some(described)))
+            }
+        }
+    }
+
+    fn topic(
+        &mut self,
+        topic: String,
+        schema: Schema,
+        into_json: Option<MessageDescriptor>,
+    ) -> usize {
         self.topics.push(Topic {
-            topic: topic.into(),
-            schema_name: schema_name.into(),
+            topic,
             schema,
+            into_json,
         });
         self.topics.len() - 1
     }
 
-    pub(super) fn message(
+    /// Flat numbers.
+    pub(super) fn numbers(
         &mut self,
         topic: usize,
         log_time_ns: u64,
-        message: &impl Serialize,
+        values: Vec<(&str, f64)>,
     ) -> Result<(), LogError> {
         let start = self.bytes.len();
-        serde_json::to_writer(&mut self.bytes, message)?;
+        serde_json::to_writer(&mut self.bytes, &Flat { values })?;
+        self.push(topic, log_time_ns, start);
+        Ok(())
+    }
+
+    /// A message of Foxglove's.
+    pub(super) fn message<M: Encode>(
+        &mut self,
+        topic: usize,
+        log_time_ns: u64,
+        message: &M,
+    ) -> Result<(), LogError> {
+        let start = self.bytes.len();
+        let encoded = message.encode(&mut self.bytes);
+        encoded.map_err(|error| LogError::Message(error.to_string()))?;
+        if let Some(described) = &self.topics[topic].into_json {
+            let json = protobuf::of_own(described, &self.bytes[start..]);
+            let json = json.map_err(LogError::Message)?;
+            self.bytes.truncate(start);
+            serde_json::to_writer(&mut self.bytes, &json)?;
+        }
+        self.push(topic, log_time_ns, start);
+        Ok(())
+    }
+
+    fn push(&mut self, topic: usize, log_time_ns: u64, start: usize) {
         self.messages.push(Message {
             log_time_ns,
             topic,
             bytes: start..self.bytes.len(),
         });
-        Ok(())
     }
 
     /// The time of a tick \[ns\].

@@ -12,6 +12,7 @@ mod message;
 mod messages;
 mod motion;
 mod names;
+mod protobuf;
 mod read;
 mod scene;
 mod schema;

@@ -1,28 +1,27 @@
 //! What moves, as a log records it: the scene once, then frames, TCP and joints, and the reference's where it is to be shown.
 
+use foxglove::messages::{
+    FrameTransforms, JointState, JointStates, Pose, PoseInFrame, SceneUpdate,
+};
 use kinemark_sim::kinematics::FramePoses;
 
 use super::bodies::Bodies;
 use super::mcap::LogError;
-use super::message::{JointState, JointStates, Pose, PoseInFrame, Quaternion, Time, Vector};
+use super::message::{finite, quaternion, time, vector};
 use super::messages::Messages;
 use super::names::{REFERENCE, frame_id_of};
+use super::scene;
 use super::tree::Tree;
-use super::{scene, schema};
 
 /// Poses and joint states a second.
 const POSE_RATE_HZ: f64 = 60.0;
 
 impl Messages<'_> {
     pub(super) fn scenes(&mut self) -> Result<(), LogError> {
-        let topic = self.topic("/scene", "foxglove.SceneUpdate", schema::scene_update());
+        let topic = self.known_topic::<SceneUpdate>("/scene")?;
         self.message(topic, 0, &scene::scene(self.run))?;
         if let Some(reference) = scene::reference(self.run) {
-            let topic = self.topic(
-                "/reference/scene",
-                "foxglove.SceneUpdate",
-                schema::scene_update(),
-            );
+            let topic = self.known_topic::<SceneUpdate>("/reference/scene")?;
             self.message(topic, 0, &reference)?;
         }
         Ok(())
@@ -31,24 +30,16 @@ impl Messages<'_> {
     /// Every frame, the TCP, the joints.
     pub(super) fn motion(&mut self) -> Result<(), LogError> {
         let run = self.run;
-        let tf = self.topic(
-            "/tf",
-            "foxglove.FrameTransforms",
-            schema::frame_transforms(),
-        );
-        let tcp = self.topic("/tcp", "foxglove.PoseInFrame", schema::pose_in_frame());
-        let states = self.topic(
-            "/joint_states",
-            "foxglove.JointStates",
-            schema::joint_states(),
-        );
+        let tf = self.known_topic::<FrameTransforms>("/tf")?;
+        let tcp = self.known_topic::<PoseInFrame>("/tcp")?;
+        let states = self.known_topic::<JointStates>("/joint_states")?;
         let tree = Tree::new(&run.robot, "");
         let bodies = Bodies::new(run);
         let lab = frame_id_of(&run.robot, &run.seen_from);
         let mut poses = FramePoses::new(&run.robot);
         for tick in self.ticks(POSE_RATE_HZ) {
             let ns = self.ns(tick as u64);
-            let timestamp = Time::from_ns(ns);
+            let timestamp = time(ns);
             let (q, qd, effort) = (
                 run.trace.q.at(tick),
                 run.trace.qd.at(tick),
@@ -63,13 +54,13 @@ impl Messages<'_> {
             let row = run.trace.tcp.at(tick);
             if row.iter().all(|x| x.is_finite()) {
                 let pose = Pose {
-                    position: Vector::new([row[0], row[1], row[2]]),
-                    orientation: Quaternion::new([row[3], row[4], row[5], row[6]]),
+                    position: Some(vector([row[0], row[1], row[2]])),
+                    orientation: Some(quaternion([row[3], row[4], row[5], row[6]])),
                 };
                 let message = PoseInFrame {
-                    timestamp,
-                    frame_id: &lab,
-                    pose,
+                    timestamp: Some(timestamp),
+                    frame_id: lab.clone(),
+                    pose: Some(pose),
                 };
                 self.message(tcp, ns, &message)?;
             }
@@ -78,13 +69,14 @@ impl Messages<'_> {
                 .moving_joints()
                 .enumerate()
                 .map(|(i, joint)| JointState {
-                    name: &joint.name,
-                    position: q[i],
-                    velocity: qd[i],
-                    effort: effort[i],
+                    name: joint.name.clone(),
+                    position: finite(q[i]),
+                    velocity: finite(qd[i]),
+                    acceleration: None,
+                    effort: finite(effort[i]),
                 });
             let message = JointStates {
-                timestamp,
+                timestamp: Some(timestamp),
                 joints: joints.collect(),
             };
             self.message(states, ns, &message)?;
@@ -98,11 +90,7 @@ impl Messages<'_> {
         let Some(trace) = &run.reference_overlay else {
             return Ok(());
         };
-        let tf = self.topic(
-            "/reference/tf",
-            "foxglove.FrameTransforms",
-            schema::frame_transforms(),
-        );
+        let tf = self.known_topic::<FrameTransforms>("/reference/tf")?;
         let tree = Tree::new(&run.robot, REFERENCE);
         let bodies = Bodies::of_reference(run, trace);
         let mut poses = FramePoses::new(&run.robot);
@@ -112,7 +100,7 @@ impl Messages<'_> {
                 break;
             };
             let ns = self.ns(tick as u64);
-            let timestamp = Time::from_ns(ns);
+            let timestamp = time(ns);
             poses.update(&run.robot, trace.q.at(at));
             let mut transforms = tree.transforms(&poses, timestamp);
             bodies.add(trace, at, timestamp, &mut transforms);

@@ -63,19 +63,29 @@ pub enum ReadError {
     /// It holds no message.
     #[error("it holds no messages")]
     NoMessages,
-    /// No topic of it is written as JSON.
-    #[error("none of its topics is JSON: {}", .topics.join(", "))]
-    NoJson {
+    /// No topic of it is written as JSON or protobuf.
+    #[error("none of its topics is JSON, or protobuf with its schema: {}", .topics.join(", "))]
+    Unread {
         /// Its topics with their encodings.
         topics: Vec<String>,
     },
     /// A message is not what its channel says.
-    #[error("message {number} of topic `{topic}` is no JSON: {why}")]
-    Json {
+    #[error("message {number} of topic `{topic}` is no {form}: {why}")]
+    Message {
         /// Its topic.
         topic: String,
         /// Which message of the topic, from one.
         number: u64,
+        /// What it should be.
+        form: String,
+        /// What is wrong.
+        why: String,
+    },
+    /// The schema of a topic does not describe its messages.
+    #[error("the schema of topic `{topic}` cannot be read: {why}")]
+    Schema {
+        /// The topic.
+        topic: String,
         /// What is wrong.
         why: String,
     },
@@ -99,10 +109,12 @@ impl ReadError {
             }
             Self::TooLarge { .. } => "cut out a part of it: `mcap filter LOG -o PART -s 0 -e 10`",
             Self::NoMessages => "name a log of a run; this one has nothing to export",
-            Self::NoJson { .. } => {
-                "only JSON messages become tables; convert others with the tools of their format"
+            Self::Unread { .. } => {
+                "only JSON and protobuf messages become tables; convert others with the tools of their format"
             }
-            Self::Json { .. } => "export another topic with --topic, or write the log anew",
+            Self::Message { .. } | Self::Schema { .. } => {
+                "export another topic with --topic, or write the log anew"
+            }
             Self::Write(_) => "free some space, or choose another place with --out",
         }
     }

@@ -1,11 +1,15 @@
 //! What stands still in its frame: the shapes of the links, the goals, and the reference path.
 
+use foxglove::messages::line_primitive::Type;
+use foxglove::messages::{
+    Color, CubePrimitive, CylinderPrimitive, Duration, KeyValuePair, LinePrimitive, Pose,
+    SceneEntity, SceneUpdate, SpherePrimitive, TriangleListPrimitive,
+};
 use kinemark_sim::model::inertia::Solid;
 use kinemark_sim::model::robot::Shape;
 use kinemark_sim::model::scene::SceneBody;
-use serde::Serialize;
 
-use super::message::{Pose, Time, Vector};
+use super::message::{point, pose, pose_at, time, vector};
 use super::names::{REFERENCE as REFERENCE_FRAMES, body_frame, frame_id, frame_id_of};
 use crate::palette::{SolidColour, log, of_body, of_link};
 use crate::solid::{LogForm, Surface, drawn};
@@ -13,128 +17,57 @@ use kinemark_grader::record::graded::{Goal, TaskRun, TcpPath};
 use kinemark_sim::spatial::Pose as Isometry;
 use kinemark_sim::trace::Trace;
 
-#[derive(Debug, Clone, Copy, Serialize)]
-struct Colour {
-    r: f64,
-    g: f64,
-    b: f64,
-    a: f64,
+fn colour([r, g, b, a]: [f64; 4]) -> Color {
+    Color { r, g, b, a }
 }
 
-impl From<[f64; 4]> for Colour {
-    fn from([r, g, b, a]: [f64; 4]) -> Self {
-        Self { r, g, b, a }
-    }
+fn solid_colour(colour: SolidColour) -> Color {
+    let [r, g, b] = colour.log;
+    Color { r, g, b, a: 1.0 }
 }
 
-impl From<SolidColour> for Colour {
-    fn from(colour: SolidColour) -> Self {
-        let [r, g, b] = colour.log;
-        [r, g, b, 1.0].into()
-    }
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct Solid3 {
-    pose: Pose,
-    size: Vector,
-    color: Colour,
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct Cylinder {
-    pose: Pose,
-    size: Vector,
-    bottom_scale: f64,
-    top_scale: f64,
-    color: Colour,
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct Line {
-    #[serde(rename = "type")]
-    kind: u8,
-    pose: Pose,
-    thickness: f64,
-    scale_invariant: bool,
-    points: Vec<Vector>,
-    color: Colour,
-    colors: [Colour; 0],
-    indices: [u32; 0],
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct Triangles {
-    pose: Pose,
-    points: Vec<Vector>,
-    color: Colour,
-    colors: [Colour; 0],
-    indices: Vec<u32>,
-}
-
-#[derive(Debug, Clone, Serialize)]
-struct KeyValue {
-    key: &'static str,
-    value: String,
-}
-
-/// Primitives of a kind this log does not draw.
-type Nothing = [u8; 0];
-
-#[derive(Debug, Clone, Serialize)]
-struct Entity {
-    timestamp: Time,
-    frame_id: String,
-    id: String,
-    lifetime: Time,
-    frame_locked: bool,
-    metadata: Vec<KeyValue>,
-    arrows: Nothing,
-    cubes: Vec<Solid3>,
-    spheres: Vec<Solid3>,
-    cylinders: Vec<Cylinder>,
-    lines: Vec<Line>,
-    triangles: Vec<Triangles>,
-    texts: Nothing,
-    models: Nothing,
-}
+/// An entity that goes with its frame, from the start to the end.
+struct Entity(SceneEntity);
 
 impl Entity {
     fn new(id: String, frame_id: String) -> Self {
-        Self {
-            timestamp: Time::from_ns(0),
+        Self(SceneEntity {
+            timestamp: Some(time(0)),
             frame_id,
             id,
-            lifetime: Time::from_ns(0),
+            lifetime: Some(Duration::new(0, 0)),
             frame_locked: true,
-            metadata: Vec::new(),
-            arrows: [],
-            cubes: Vec::new(),
-            spheres: Vec::new(),
-            cylinders: Vec::new(),
-            lines: Vec::new(),
-            triangles: Vec::new(),
-            texts: [],
-            models: [],
-        }
+            ..SceneEntity::default()
+        })
     }
 
-    fn sphere(&mut self, pose: Pose, radius_m: f64, color: Colour) {
-        let size = Vector::new([2.0 * radius_m; 3]);
-        self.spheres.push(Solid3 { pose, size, color });
+    fn note(&mut self, key: &str, value: String) {
+        self.0.metadata.push(KeyValuePair {
+            key: key.to_owned(),
+            value,
+        });
     }
 
-    fn solid(&mut self, solid: &Solid, link_from_shape: &Isometry, color: Colour) {
+    fn sphere(&mut self, pose: Pose, radius_m: f64, color: Color) {
+        self.0.spheres.push(SpherePrimitive {
+            pose: Some(pose),
+            size: Some(vector([2.0 * radius_m; 3])),
+            color: Some(color),
+        });
+    }
+
+    fn solid(&mut self, solid: &Solid, link_from_shape: &Isometry, color: Color) {
         for (shape_from_part, form) in drawn(solid).log_forms() {
             let pose = match shape_from_part {
-                Some(shape_from_part) => Pose::new(&(link_from_shape * shape_from_part)),
-                None => Pose::new(link_from_shape),
+                Some(shape_from_part) => pose(&(link_from_shape * shape_from_part)),
+                None => pose(link_from_shape),
             };
             match form {
-                LogForm::Box(size_m) => {
-                    let size = Vector::new(size_m);
-                    self.cubes.push(Solid3 { pose, size, color });
-                }
+                LogForm::Box(size_m) => self.0.cubes.push(CubePrimitive {
+                    pose: Some(pose),
+                    size: Some(vector(size_m)),
+                    color: Some(color),
+                }),
                 LogForm::Cylinder { radius_m, length_m } => {
                     self.cylinder(pose, radius_m, length_m, color);
                 }
@@ -144,33 +77,34 @@ impl Entity {
         }
     }
 
-    fn surface(&mut self, pose: Pose, surface: &Surface, color: Colour) {
+    fn surface(&mut self, pose: Pose, surface: &Surface, color: Color) {
         let points = surface.vertices().iter().copied();
-        self.triangles.push(Triangles {
-            pose,
-            points: points.map(Vector::new).collect(),
-            color,
-            colors: [],
+        self.0.triangles.push(TriangleListPrimitive {
+            pose: Some(pose),
+            // a mesh has finite vertices only, or its triangles would name others
+            points: points.map(|p| point(p).unwrap_or_default()).collect(),
+            color: Some(color),
+            colors: Vec::new(),
             indices: surface.triangles().as_flattened().to_vec(),
         });
     }
 
-    fn cylinder(&mut self, pose: Pose, radius_m: f64, length_m: f64, color: Colour) {
-        self.cylinders.push(Cylinder {
-            pose,
-            size: Vector::new([2.0 * radius_m, 2.0 * radius_m, length_m]),
+    fn cylinder(&mut self, pose: Pose, radius_m: f64, length_m: f64, color: Color) {
+        self.0.cylinders.push(CylinderPrimitive {
+            pose: Some(pose),
+            size: Some(vector([2.0 * radius_m, 2.0 * radius_m, length_m])),
             bottom_scale: 1.0,
             top_scale: 1.0,
-            color,
+            color: Some(color),
         });
     }
 }
 
-/// A message of a scene.
-#[derive(Debug, Clone, Serialize)]
-pub(super) struct SceneUpdate {
-    deletions: Nothing,
-    entities: Vec<Entity>,
+fn update(entities: Vec<Entity>) -> SceneUpdate {
+    SceneUpdate {
+        deletions: Vec::new(),
+        entities: entities.into_iter().map(|entity| entity.0).collect(),
+    }
 }
 
 /// The links with their shapes, and the goals with their bands.
@@ -183,7 +117,7 @@ pub(super) fn scene(run: &TaskRun) -> SceneUpdate {
             frame_id(robot, &robot.frames()[i]),
         );
         for shape in &link.shapes {
-            let color = of_link(i).into();
+            let color = solid_colour(of_link(i));
             entity.solid(&shape.solid, &shape.link_from_shape, color);
         }
         entities.push(entity);
@@ -194,23 +128,17 @@ pub(super) fn scene(run: &TaskRun) -> SceneUpdate {
     let lab = frame_id_of(robot, &run.seen_from);
     let goals = run.goals.iter().enumerate();
     entities.extend(goals.map(|(i, goal)| goal_entity(i, goal, &lab)));
-    SceneUpdate {
-        deletions: [],
-        entities,
-    }
+    update(entities)
 }
 
 /// A body of the scene, in a frame of its own.
 fn body_entity(body: &SceneBody) -> Entity {
     let mut entity = Entity::new(format!("body {}", body.name), body_frame(&body.name));
-    let color = of_body(&body.kind).into();
+    let color = solid_colour(of_body(&body.kind));
     for shape in &body.shapes {
         entity.solid(&shape.solid, &shape.link_from_shape, color);
     }
-    entity.metadata.push(KeyValue {
-        key: "type",
-        value: body.kind.name().to_owned(),
-    });
+    entity.note("type", body.kind.name().to_owned());
     entity
 }
 
@@ -218,13 +146,10 @@ fn goal_entity(index: usize, goal: &Goal, lab: &str) -> Entity {
     let mut entity = Entity::new(format!("goal {}", index + 1), lab.to_owned());
     for (radius_m, color) in [(goal.full_m, log::FULL), (goal.zero_m, log::ZERO)] {
         if radius_m.is_finite() {
-            entity.sphere(Pose::at(goal.position_m), radius_m, color.into());
+            entity.sphere(pose_at(goal.position_m), radius_m, colour(color));
         }
     }
-    entity.metadata.push(KeyValue {
-        key: "dwell_s",
-        value: goal.dwell_s.to_string(),
-    });
+    entity.note("dwell_s", goal.dwell_s.to_string());
     entity
 }
 
@@ -238,10 +163,7 @@ pub(super) fn reference(run: &TaskRun) -> Option<SceneUpdate> {
     if let Some(trace) = &run.reference_overlay {
         entities.extend(ghost_entities(run, trace));
     }
-    (!entities.is_empty()).then_some(SceneUpdate {
-        deletions: [],
-        entities,
-    })
+    (!entities.is_empty()).then(|| update(entities))
 }
 
 /// Translucent links, and bodies that can move, in frames of their own.
@@ -257,7 +179,7 @@ fn ghost_entities(run: &TaskRun, trace: &Trace) -> Vec<Entity> {
             entity.solid(
                 &shape.solid,
                 &shape.link_from_shape,
-                log::REFERENCE_ARM.into(),
+                colour(log::REFERENCE_ARM),
             );
         }
         entities.push(entity);
@@ -288,16 +210,15 @@ fn path_entity(run: &TaskRun, path: &TcpPath) -> Entity {
         "reference path".to_owned(),
         frame_id_of(&run.robot, &run.seen_from),
     );
-    let points = path.points_m.iter().map(|p| Vector::new(*p));
-    entity.lines.push(Line {
-        kind: 0,
-        pose: Pose::at([0.0; 3]),
+    entity.0.lines.push(LinePrimitive {
+        r#type: Type::LineStrip as i32,
+        pose: Some(pose_at([0.0; 3])),
         thickness: 2.0,
         scale_invariant: true,
-        points: points.filter(Vector::is_finite).collect(),
-        color: log::REFERENCE_PATH.into(),
-        colors: [],
-        indices: [],
+        points: path.points_m.iter().filter_map(|p| point(*p)).collect(),
+        color: Some(colour(log::REFERENCE_PATH)),
+        colors: Vec::new(),
+        indices: Vec::new(),
     });
     entity
 }

@@ -1,227 +1,51 @@
-//! JSON schemas of the messages. Those called `foxglove.*` follow the schemas of that name (foxglove-sdk, `schemas/jsonschema`),
-//! with the fields this log writes; viewers go by the name.
+//! Schemas of the messages. Those called `foxglove.*` are Foxglove's own, as protobuf descriptors from its crate, and as JSON schemas in
+//! `well_known_schemas.json` (from `@foxglove/schemas` 2.1.0, MIT); viewers go by name and content. Flat numbers have one of their own.
 
+use std::collections::BTreeMap;
+use std::sync::LazyLock;
+
+use foxglove::Encode;
 use serde_json::{Value, json};
 
-fn object(title: &str, properties: Value) -> Value {
-    let mut required: Vec<String> = properties
-        .as_object()
-        .into_iter()
-        .flatten()
-        .map(|(name, _)| name.clone())
-        .collect();
-    required.sort_unstable();
-    json!({ "title": title, "type": "object", "properties": properties, "required": required })
+/// What a channel is written with.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Schema {
+    pub(super) name: String,
+    /// `protobuf` or `jsonschema`.
+    pub(super) encoding: &'static str,
+    pub(super) data: Vec<u8>,
+    /// `protobuf` or `json`.
+    pub(super) of_messages: &'static str,
 }
 
-fn list(items: Value) -> Value {
-    json!({ "type": "array", "items": items })
-}
+static WELL_KNOWN: LazyLock<BTreeMap<String, Value>> = LazyLock::new(|| {
+    let text = include_str!("well_known_schemas.json");
+    serde_json::from_str(text).unwrap_or_default()
+});
 
-fn number() -> Value {
-    json!({ "type": "number" })
-}
-
-fn text() -> Value {
-    json!({ "type": "string" })
-}
-
-fn time() -> Value {
-    json!({
-        "title": "time",
-        "type": "object",
-        "properties": {
-            "sec": { "type": "integer", "minimum": 0 },
-            "nsec": { "type": "integer", "minimum": 0, "maximum": 999_999_999 },
-        },
-    })
-}
-
-fn duration() -> Value {
-    json!({
-        "title": "duration",
-        "type": "object",
-        "properties": {
-            "sec": { "type": "integer" },
-            "nsec": { "type": "integer", "minimum": 0, "maximum": 999_999_999 },
-        },
-    })
-}
-
-fn vector() -> Value {
-    object(
-        "foxglove.Vector3",
-        json!({ "x": number(), "y": number(), "z": number() }),
-    )
-}
-
-fn point() -> Value {
-    object(
-        "foxglove.Point3",
-        json!({ "x": number(), "y": number(), "z": number() }),
-    )
-}
-
-fn quaternion() -> Value {
-    object(
-        "foxglove.Quaternion",
-        json!({ "x": number(), "y": number(), "z": number(), "w": number() }),
-    )
-}
-
-fn pose() -> Value {
-    object(
-        "foxglove.Pose",
-        json!({ "position": vector(), "orientation": quaternion() }),
-    )
-}
-
-fn colour() -> Value {
-    object(
-        "foxglove.Color",
-        json!({ "r": number(), "g": number(), "b": number(), "a": number() }),
-    )
-}
-
-/// `foxglove.FrameTransforms`.
-pub(super) fn frame_transforms() -> Value {
-    let transform = object(
-        "foxglove.FrameTransform",
-        json!({
-            "timestamp": time(),
-            "parent_frame_id": text(),
-            "child_frame_id": text(),
-            "translation": vector(),
-            "rotation": quaternion(),
-        }),
-    );
-    object(
-        "foxglove.FrameTransforms",
-        json!({ "transforms": list(transform) }),
-    )
-}
-
-/// `foxglove.SceneUpdate`, with the primitives this log draws.
-pub(super) fn scene_update() -> Value {
-    let deletion = object(
-        "foxglove.SceneEntityDeletion",
-        json!({ "timestamp": time(), "type": { "enum": [0, 1] }, "id": text() }),
-    );
-    let cube = object(
-        "foxglove.CubePrimitive",
-        json!({ "pose": pose(), "size": vector(), "color": colour() }),
-    );
-    let sphere = object(
-        "foxglove.SpherePrimitive",
-        json!({ "pose": pose(), "size": vector(), "color": colour() }),
-    );
-    let cylinder = object(
-        "foxglove.CylinderPrimitive",
-        json!({
-            "pose": pose(),
-            "size": vector(),
-            "bottom_scale": number(),
-            "top_scale": number(),
-            "color": colour(),
-        }),
-    );
-    let line = object(
-        "foxglove.LinePrimitive",
-        json!({
-            "type": { "enum": [0, 1, 2] },
-            "pose": pose(),
-            "thickness": number(),
-            "scale_invariant": { "type": "boolean" },
-            "points": list(point()),
-            "color": colour(),
-            "colors": list(colour()),
-            "indices": list(json!({ "type": "integer", "minimum": 0 })),
-        }),
-    );
-    let triangles = object(
-        "foxglove.TriangleListPrimitive",
-        json!({
-            "pose": pose(),
-            "points": list(point()),
-            "color": colour(),
-            "colors": list(colour()),
-            "indices": list(json!({ "type": "integer", "minimum": 0 })),
-        }),
-    );
-    let pair = object(
-        "foxglove.KeyValuePair",
-        json!({ "key": text(), "value": text() }),
-    );
-    let none = || list(json!({ "type": "object" }));
-    let entity = object(
-        "foxglove.SceneEntity",
-        json!({
-            "timestamp": time(),
-            "frame_id": text(),
-            "id": text(),
-            "lifetime": duration(),
-            "frame_locked": { "type": "boolean" },
-            "metadata": list(pair),
-            "arrows": none(),
-            "cubes": list(cube),
-            "spheres": list(sphere),
-            "cylinders": list(cylinder),
-            "lines": list(line),
-            "triangles": list(triangles),
-            "texts": none(),
-            "models": none(),
-        }),
-    );
-    object(
-        "foxglove.SceneUpdate",
-        json!({ "deletions": list(deletion), "entities": list(entity) }),
-    )
-}
-
-/// `foxglove.JointStates`.
-pub(super) fn joint_states() -> Value {
-    let joint = json!({
-        "title": "foxglove.JointState",
-        "type": "object",
-        "properties": {
-            "name": text(),
-            "position": { "type": "number", "description": "rad or m" },
-            "velocity": { "type": "number", "description": "rad/s or m/s" },
-            "effort": { "type": "number", "description": "N m or N" },
-        },
-        "required": ["name"],
+/// The descriptors of a message of Foxglove's.
+pub(super) fn protobuf<M: Encode>() -> Schema {
+    let schema = M::get_schema();
+    let (name, data) = schema.map_or_else(Default::default, |schema| {
+        (schema.name, schema.data.into_owned())
     });
-    object(
-        "foxglove.JointStates",
-        json!({ "timestamp": time(), "joints": list(joint) }),
-    )
+    Schema {
+        name,
+        encoding: "protobuf",
+        data,
+        of_messages: "protobuf",
+    }
 }
 
-/// `foxglove.PoseInFrame`.
-pub(super) fn pose_in_frame() -> Value {
-    object(
-        "foxglove.PoseInFrame",
-        json!({ "timestamp": time(), "frame_id": text(), "pose": pose() }),
-    )
-}
-
-/// `foxglove.Log`.
-pub(super) fn log() -> Value {
-    object(
-        "foxglove.Log",
-        json!({
-            "timestamp": time(),
-            "level": { "enum": [0, 1, 2, 3, 4, 5] },
-            "message": text(),
-            "name": text(),
-            "file": text(),
-            "line": { "type": "integer", "minimum": 0 },
-        }),
-    )
+/// The JSON schema of a message of Foxglove's.
+pub(super) fn json_of<M: Encode>() -> Schema {
+    let name = M::get_schema().map_or_else(String::new, |schema| schema.name);
+    let schema = WELL_KNOWN.get(&name).cloned().unwrap_or_default();
+    in_json(name, schema)
 }
 
 /// Flat numbers with what each is; one that is not finite is left out of its message.
-pub(super) fn flat(title: &str, fields: &[(String, String)]) -> Value {
+pub(super) fn flat(title: &str, fields: &[(String, String)]) -> Schema {
     let properties: serde_json::Map<String, Value> = fields
         .iter()
         .map(|(name, what)| {
@@ -231,5 +55,55 @@ pub(super) fn flat(title: &str, fields: &[(String, String)]) -> Value {
             )
         })
         .collect();
-    json!({ "title": title, "type": "object", "properties": properties })
+    let schema = json!({ "title": title, "type": "object", "properties": properties });
+    in_json(title.to_owned(), schema)
+}
+
+fn in_json(name: String, mut schema: Value) -> Schema {
+    // whether a JSON map is sorted depends on how its crate was built; the bytes must not
+    schema.sort_all_objects();
+    Schema {
+        name,
+        encoding: "jsonschema",
+        data: schema.to_string().into_bytes(),
+        of_messages: "json",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use foxglove::messages::{FrameTransforms, JointStates, Log, PoseInFrame, SceneUpdate};
+
+    use super::*;
+
+    #[test]
+    fn every_well_known_message_has_both_schemas() {
+        fn check<M: Encode>(expected: &str) {
+            let (binary, text) = (protobuf::<M>(), json_of::<M>());
+            assert_eq!(
+                (binary.name.as_str(), text.name.as_str()),
+                (expected, expected)
+            );
+            let described: Value = serde_json::from_slice(&text.data).unwrap();
+            assert_eq!(described["title"], json!(expected));
+            let pool = prost_reflect::DescriptorPool::decode(binary.data.as_slice()).unwrap();
+            let message = pool.get_message_by_name(expected).unwrap();
+            // the two say the same of its fields
+            let mut fields: Vec<_> = message
+                .fields()
+                .map(|field| field.name().to_owned())
+                .collect();
+            let properties = described["properties"].as_object().unwrap();
+            let mut named: Vec<_> = properties.keys().cloned().collect();
+            fields.sort();
+            named.sort();
+            assert_eq!(fields, named, "{expected}");
+        }
+        check::<FrameTransforms>("foxglove.FrameTransforms");
+        check::<JointStates>("foxglove.JointStates");
+        check::<Log>("foxglove.Log");
+        check::<PoseInFrame>("foxglove.PoseInFrame");
+        check::<SceneUpdate>("foxglove.SceneUpdate");
+        assert_eq!(WELL_KNOWN.len(), 5);
+    }
 }

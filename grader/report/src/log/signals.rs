@@ -3,10 +3,8 @@
 use kinemark_sim::model::sensor::Measured;
 
 use super::mcap::LogError;
-use super::message::Flat;
-use super::messages::{Messages, SIGNAL_RATE_HZ};
+use super::messages::Messages;
 use super::names::fields;
-use super::schema;
 use crate::goal::current_goal;
 
 impl Messages<'_> {
@@ -36,21 +34,15 @@ impl Messages<'_> {
                 names.push((format!("{}_{joint}", signal.name()), unit.to_owned()));
             }
         }
-        let topic = self.topic(
-            "/signals",
-            "kinemark.Signals",
-            schema::flat("kinemark.Signals", &names),
-        );
-        for tick in self.ticks(SIGNAL_RATE_HZ) {
+        let topic = self.flat_topic("/signals", "kinemark.Signals", &names);
+        for tick in self.ticks(self.signal_rate_hz) {
             let values = sources.iter().flat_map(|signal| signal.at(tick));
             let values = names
                 .iter()
                 .map(|(name, _)| name.as_str())
                 .zip(values.copied());
-            let message = Flat {
-                values: values.collect(),
-            };
-            self.message(topic, self.ns(tick as u64), &message)?;
+            let values = values.collect();
+            self.numbers(topic, self.ns(tick as u64), values)?;
         }
         Ok(())
     }
@@ -79,17 +71,11 @@ impl Messages<'_> {
             .iter()
             .map(|kind| format!("a reading of a {kind} sensor"));
         let described: Vec<_> = names.iter().cloned().zip(kinds).collect();
-        let topic = self.topic(
-            "/sensors",
-            "kinemark.Sensors",
-            schema::flat("kinemark.Sensors", &described),
-        );
-        for tick in self.ticks(SIGNAL_RATE_HZ) {
+        let topic = self.flat_topic("/sensors", "kinemark.Sensors", &described);
+        for tick in self.ticks(self.signal_rate_hz) {
             let values = run.trace.sensors.at(tick).iter().copied();
-            let message = Flat {
-                values: names.iter().map(String::as_str).zip(values).collect(),
-            };
-            self.message(topic, self.ns(tick as u64), &message)?;
+            let values = names.iter().map(String::as_str).zip(values).collect();
+            self.numbers(topic, self.ns(tick as u64), values)?;
         }
         Ok(())
     }
@@ -110,12 +96,8 @@ impl Messages<'_> {
             .iter()
             .map(|(name, what)| ((*name).to_owned(), (*what).to_owned()))
             .collect();
-        let topic = self.topic(
-            "/errors",
-            "kinemark.Errors",
-            schema::flat("kinemark.Errors", &described),
-        );
-        for tick in self.ticks(SIGNAL_RATE_HZ) {
+        let topic = self.flat_topic("/errors", "kinemark.Errors", &described);
+        for tick in self.ticks(self.signal_rate_hz) {
             let Some(index) = current_goal(&run.goals, tick as u64) else {
                 continue;
             };
@@ -123,10 +105,8 @@ impl Messages<'_> {
             let distance_m =
                 (run.trace.tcp_position(tick) - nalgebra::Vector3::from(goal.position_m)).norm();
             let values = [(index + 1) as f64, distance_m, goal.full_m, goal.zero_m];
-            let message = Flat {
-                values: names.iter().map(|(name, _)| *name).zip(values).collect(),
-            };
-            self.message(topic, self.ns(tick as u64), &message)?;
+            let values = names.iter().map(|(name, _)| *name).zip(values).collect();
+            self.numbers(topic, self.ns(tick as u64), values)?;
         }
         Ok(())
     }

@@ -1,10 +1,11 @@
 //! The frames of a robot as a tree under the world.
 
+use foxglove::messages::{FrameTransform, FrameTransforms, Timestamp};
 use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::model::robot::{Frame, Robot};
 use kinemark_sim::spatial::Pose as Isometry;
 
-use super::message::{FrameTransform, FrameTransforms, Pose, Time};
+use super::message::pose;
 use super::names::{WORLD, frame_id};
 
 /// Every frame of a robot with the one it hangs on.
@@ -37,7 +38,7 @@ impl<'a> Tree<'a> {
     }
 
     /// Every frame on the one it hangs on.
-    pub(super) fn transforms(&self, poses: &FramePoses, timestamp: Time) -> FrameTransforms<'_> {
+    pub(super) fn transforms(&self, poses: &FramePoses, timestamp: Timestamp) -> FrameTransforms {
         let world_from: Vec<Isometry> = self
             .robot
             .frames()
@@ -50,14 +51,16 @@ impl<'a> Tree<'a> {
                 .iter()
                 .enumerate()
                 .map(|(i, (name, parent))| {
-                    let pose = Pose::new(&match parent {
+                    let pose = pose(&match parent {
                         Some(parent) => world_from[*parent].inv_mul(&world_from[i]),
                         None => world_from[i],
                     });
                     FrameTransform {
-                        timestamp,
-                        parent_frame_id: parent.map_or(WORLD, |parent| &self.branches[parent].0),
-                        child_frame_id: name,
+                        timestamp: Some(timestamp),
+                        parent_frame_id: parent
+                            .map_or(WORLD, |parent| &self.branches[parent].0)
+                            .to_owned(),
+                        child_frame_id: name.clone(),
                         translation: pose.position,
                         rotation: pose.orientation,
                     }

@@ -5,7 +5,7 @@ use std::io::Read;
 
 use serde::{Deserialize, Serialize};
 
-use super::OutFile;
+use super::{LogRequest, OutFile};
 
 /// Its name in the folder.
 pub const FILE: &str = "report.json";
@@ -22,6 +22,9 @@ pub struct ReportRequest {
     pub png: bool,
     /// The storyboard of each motion task, as SVG and PNG.
     pub storyboard: bool,
+    /// How the log of each motion task is written.
+    #[serde(default)]
+    pub log: LogRequest,
 }
 
 /// What `report.json` holds.

@@ -34,7 +34,12 @@ fn files(material: &Material<'_>) -> Result<Vec<OutFile>, OutputError> {
             media_type,
             bytes: text.as_bytes(),
         });
-        let log = mcap(run, &material.graded.grade, &attachments);
+        let log = mcap(
+            run,
+            &material.graded.grade,
+            &attachments,
+            material.request.log,
+        );
         let log = log.map_err(|error| OutputError::Log {
             task: run.task.clone(),
             error,

@@ -140,6 +140,7 @@ pub fn json(value: &impl Serialize) -> Result<String, OutputError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::LogRequest;
     use super::super::material::Pixels;
     use super::*;
     use kinemark_grader::record::sample;
@@ -171,6 +172,7 @@ mod tests {
             reference_overlay: false,
             png: true,
             storyboard: true,
+            log: LogRequest::default(),
         });
         assert!(plain.iter().all(|path| all.contains(path)));
         let mut once = all.clone();

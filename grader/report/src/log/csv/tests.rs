@@ -8,6 +8,7 @@ use ::mcap::{Compression, WriteOptions};
 
 use super::*;
 use crate::log::mcap;
+use crate::output::LogRequest;
 use kinemark_grader::record::sample;
 
 /// A log with messages `(topic, encoding, time, data)`.
@@ -46,7 +47,7 @@ fn csv_of(log: &[u8], topic: &str) -> String {
 #[test]
 fn the_values_of_a_run_are_those_of_its_trace_to_the_last_bit() {
     let run = sample::task_run();
-    let log = mcap(&run, &sample::graded().grade, &[]).unwrap();
+    let log = mcap(&run, &sample::graded().grade, &[], LogRequest::default()).unwrap();
     let text = csv_of(&log, "/signals");
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let head = reader.headers().unwrap().clone();
@@ -121,7 +122,7 @@ fn other_encodings_are_named_and_passed_over() {
     let error = tables(&log_of(&[("/p", "protobuf", 0, b"\x08")])).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "none of its topics is JSON: `/p` is `protobuf`"
+        "none of its topics is JSON, or protobuf with its schema: `/p` is `protobuf`"
     );
 }
 
@@ -378,7 +379,7 @@ fn a_member_called_as_the_first_column_has_another_name() {
 #[test]
 fn columns_are_described_as_the_schema_has_them() {
     let run = sample::task_run();
-    let log = mcap(&run, &sample::graded().grade, &[]).unwrap();
+    let log = mcap(&run, &sample::graded().grade, &[], LogRequest::default()).unwrap();
     let found = tables(&log).unwrap();
     let of = |topic: &str| found.tables.iter().find(|table| table.topic == topic);
     let signals = &of("/signals").unwrap().described;
