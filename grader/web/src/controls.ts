@@ -1,56 +1,26 @@
-// The buttons of a replay.
+// The buttons of a replay: those that play it, the menu of its picture, full screen, and the link of the moment.
 
+import { button, group } from "./button";
 import { SPEEDS, type Cursor } from "./cursor";
-import { isReference, type Replay } from "./data";
+import type { Replay } from "./data";
 import { element } from "./dom";
-import { icon, setIcon, type Sign } from "./icon";
-import type { Preset } from "./orbit";
-import type { Part, View } from "./view";
+import { setIcon } from "./icon";
+import type { Part } from "./view";
+import { ViewMenu, type ViewActions } from "./view_menu";
 
-export interface Actions {
+export interface Actions extends ViewActions {
   event(direction: 1 | -1): void;
   copyLink(): void;
-  view(): View;
-  show(part: Part, on: boolean): void;
-  /** Whether a part is shown. */
-  shown(part: Part): boolean;
-}
-
-/** What the four arrows of the camera do. */
-const ARROWS = [
-  { sign: "left", turn: [-1, 0], name: "left" },
-  { sign: "right", turn: [1, 0], name: "right" },
-  { sign: "up", turn: [0, 1], name: "up" },
-  { sign: "down", turn: [0, -1], name: "down" },
-] as const;
-const TURN = Math.PI / 12;
-const SHIFT = 0.1;
-
-function button(name: string, sign: Sign | null, act: () => void, keys?: string): HTMLButtonElement {
-  const made = element("button", { type: "button", class: sign ? "replay-sign" : "replay-word" });
-  if (sign) {
-    made.setAttribute("aria-label", name);
-    made.title = keys ? `${name} (${keys})` : name;
-    made.append(icon(sign));
-  } else made.append(name);
-  made.addEventListener("click", act);
-  return made;
-}
-
-function group(name: string, ...children: HTMLElement[]): HTMLElement {
-  return element("div", { role: "group", "aria-label": name, class: "replay-group" }, ...children);
+  /** Fills the screen, or stops; none where the browser cannot. */
+  readonly fullScreen: (() => void) | null;
 }
 
 export class Controls {
   readonly element: HTMLElement;
-  private readonly cameraOnly: HTMLElement[] = [];
-  private readonly toggles = new Map<Part, HTMLButtonElement>();
+  private readonly menu: ViewMenu;
+  private readonly full: HTMLButtonElement | null;
 
-  constructor(
-    replay: Replay,
-    cursor: Cursor,
-    private readonly actions: Actions,
-  ) {
+  constructor(replay: Replay, cursor: Cursor, actions: Actions) {
     const play = button("Play", "play", () => cursor.toggle(), "space");
     play.classList.add("replay-play");
     const loop = button("Loop", "loop", () => cursor.setLoop(!cursor.loop), "L");
@@ -73,19 +43,9 @@ export class Controls {
     speed.addEventListener("change", () => cursor.setSpeed(Number(speed.value)));
     playback.append(speed);
 
-    const toggle = (name: string, part: Part): HTMLButtonElement => {
-      const made = button(name, null, () => this.show(part, !actions.shown(part)));
-      made.setAttribute("aria-pressed", String(actions.shown(part)));
-      this.toggles.set(part, made);
-      return made;
-    };
-    const shadows = toggle("Shadows", "shadows");
-    const shown = group("Show", toggle("Frames", "frames"), shadows);
-    if (replay.nodes.some((node) => node.kind === "ghost")) shown.append(toggle(isReference(replay) ? "Reference arm" : `Run ${replay.ghostLabel}`, "ghost"));
-    const views = this.camera(actions);
-    this.cameraOnly.push(shadows, views);
-    const link = button("Copy link", null, () => actions.copyLink());
-    link.prepend(icon("link"));
+    this.menu = new ViewMenu(replay, actions);
+    this.full = actions.fullScreen && button("Full screen", "full", actions.fullScreen);
+    const link = button("Copy link", "link", () => actions.copyLink(), null);
 
     cursor.on("changed", () => {
       setIcon(play, cursor.playing ? "pause" : "play");
@@ -97,55 +57,25 @@ export class Controls {
     loop.setAttribute("aria-pressed", "false");
     // a single moment has nothing to play
     if (!cursor.moves) for (const made of playback.querySelectorAll<HTMLButtonElement | HTMLSelectElement>("button, select")) made.disabled = true;
-    this.element = element("div", { class: "replay-controls" }, playback, shown, views, group("Share", link));
-  }
-
-  /** The views, and what a drag of the pointer does, as buttons. */
-  private camera(actions: Actions): HTMLElement {
-    const view = (name: string, preset: Preset): HTMLButtonElement => button(name, null, () => actions.view().camera?.view(preset));
-    const arrows = ARROWS.map(({ sign, turn: [x, y] }) =>
-      button("", sign, () => {
-        const camera = actions.view().camera;
-        if (camera?.panning) camera.shift(SHIFT * x, SHIFT * y);
-        else camera?.turn(TURN * x, TURN * y);
-      }),
-    );
-    const move = button("Move", null, () => {
-      const camera = actions.view().camera;
-      if (!camera) return;
-      camera.panning = !camera.panning;
-      name(camera.panning);
-    });
-    move.title = "Whether the arrows, and a drag, move the view rather than turn it";
-    const name = (panning: boolean): void => {
-      move.setAttribute("aria-pressed", String(panning));
-      arrows.forEach((arrow, i) => {
-        arrow.title = `${panning ? "Move" : "Turn"} ${ARROWS[i].name}`;
-        arrow.setAttribute("aria-label", arrow.title);
-      });
-    };
-    name(false);
-    const zoom = (name: string, sign: Sign, factor: number, keys: string): HTMLButtonElement => button(name, sign, () => actions.view().camera?.zoom(factor), keys);
-    return group(
-      "Camera",
-      view("Fit", "fit"),
-      view("Side", "side"),
-      view("Top", "top"),
-      ...arrows,
-      move,
-      zoom("Farther", "farther", 1.25, "− in the 3D view, or Ctrl and the wheel"),
-      zoom("Closer", "closer", 0.8, "+ in the 3D view, or Ctrl and the wheel"),
-    );
+    const other = element("div", { class: "replay-group" }, this.menu.element, ...(this.full ? [this.full] : []), link);
+    this.element = element("div", { class: "replay-controls" }, playback, other);
   }
 
   /** Shows a part or leaves it out, as its button does. */
   show(part: Part, on: boolean): void {
-    this.actions.show(part, on);
-    this.toggles.get(part)?.setAttribute("aria-pressed", String(on));
+    this.menu.show(part, on);
   }
 
   /** Hides what only a camera can do. */
   flat(on: boolean): void {
-    for (const made of this.cameraOnly) made.hidden = on;
+    this.menu.flat(on);
+  }
+
+  /** Says whether the replay fills the screen. */
+  filled(on: boolean): void {
+    if (!this.full) return;
+    this.full.title = on ? "Leave full screen (Escape)" : "Full screen";
+    this.full.setAttribute("aria-label", this.full.title);
+    setIcon(this.full, on ? "window" : "full");
   }
 }

@@ -18,6 +18,9 @@ const PATHS = {
   right: "M9.5 5v14l8.5-7z",
   up: "M5 14.5h14L12 6z",
   down: "M5 9.5h14L12 18z",
+  full: "M4 4h7v2H6v5H4zM20 20h-7v-2h5v-5h2z",
+  window: "M11 11H4V9h5V4h2zM13 13h7v2h-5v5h-2z",
+  close: "M6.4 5L12 10.6 17.6 5 19 6.4 13.4 12l5.6 5.6-1.4 1.4-5.6-5.6L6.4 19 5 17.6l5.6-5.6L5 6.4z",
 } as const;
 
 export type Sign = keyof typeof PATHS;

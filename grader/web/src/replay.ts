@@ -4,6 +4,7 @@ import { Announcer } from "./announce";
 import { Controls } from "./controls";
 import { Cursor, SPEEDS } from "./cursor";
 import { isReference, type Replay as Data, type RunEvent } from "./data";
+import { dock, framed } from "./docking";
 import { element } from "./dom";
 import { extent, type Extent } from "./extent";
 import { mark } from "./icon";
@@ -73,12 +74,13 @@ export class Replay {
         this.view.show(part, on);
       },
       shown: (part) => this.parts[part],
+      fullScreen: document.fullscreenEnabled ? () => this.fill() : null,
     });
     this.note.hidden = true;
     this.shared.hidden = true;
     const ended = data.ended ? [element("p", { class: "replay-ended" }, `The run ended early: ${data.ended}`)] : [];
     root.append(
-      this.view.element,
+      framed(root, this.view.element),
       element("div", { class: "replay-beside" }, this.readout.element, this.legend()),
       element("div", { class: "replay-below" }, this.note, this.scrubber.element, this.controls.element, this.shared, ...ended),
       this.announcer.element,
@@ -86,6 +88,8 @@ export class Replay {
     root.setAttribute("role", "group");
     root.setAttribute("aria-label", `Replay: ${data.title}`);
     root.tabIndex = -1;
+    dock(root);
+    root.addEventListener("fullscreenchange", () => this.controls.filled(document.fullscreenElement === root));
     listen(root, this.cursor, (direction) => this.event(direction));
     this.plots = plots(data.task, this.cursor, this.world, data.stepS, {
       sought: () => this.announcer.say(this.here()),
@@ -129,6 +133,12 @@ export class Replay {
     this.note.textContent = `${why}, so the run is drawn flat, seen from the side.`;
     this.note.hidden = false;
     this.controls.flat(true);
+  }
+
+  private fill(): void {
+    // a browser may refuse, and then nothing changes
+    const done = document.fullscreenElement === this.root ? document.exitFullscreen() : this.root.requestFullscreen();
+    done.catch(() => {});
   }
 
   /** What is drawn, with its colour and its kind of line. */

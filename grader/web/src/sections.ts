@@ -17,6 +17,9 @@ export function sections(): Map<string, HTMLElement> {
 export function bring(part: HTMLElement, atOnce: boolean): void {
   for (let at = part.parentElement; at; at = at.parentElement) if (at instanceof HTMLDetailsElement) at.open = true;
   if (part.tabIndex < 0 && !part.hasAttribute("tabindex")) part.tabIndex = -1;
-  part.scrollIntoView({ block: part.offsetHeight < innerHeight ? "center" : "start", behavior: atOnce || reducedMotion() ? "auto" : "smooth" });
+  const { top, bottom } = part.getBoundingClientRect();
+  // what stays beside the text is there already
+  const seen = part.offsetHeight > 0 && top >= 0 && bottom <= innerHeight;
+  if (!seen) part.scrollIntoView({ block: part.offsetHeight < innerHeight ? "center" : "start", behavior: atOnce || reducedMotion() ? "auto" : "smooth" });
   part.focus({ preventScroll: true });
 }

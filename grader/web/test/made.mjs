@@ -34,3 +34,6 @@ export async function open(path, options = {}, from = browser) {
 export const shown = (page, i = 0) => page.evaluate((i) => window.kinemark.replays[i].shown(), i);
 export const seek = (page, t, i = 0) => page.evaluate(([t, i]) => window.kinemark.replays[i].seek(t), [t, i]);
 export const near = (a, b, by, what) => assert.ok(Math.abs(a - b) <= by, `${what}: ${a}, not ${b}`);
+
+/** Opens the menu of a picture, where its views and what it shows are chosen. */
+export const menu = (page, i = 0) => page.getByRole("button", { name: "View", exact: true }).nth(i).click();

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { page as html, replay } from "./fixture.mjs";
-import { one, open, seek, three, write } from "./made.mjs";
+import { menu, one, open, seek, three, write } from "./made.mjs";
 import { frames, soon } from "./waiting.mjs";
 
 /** A screen of which every frame takes so many ms by its own clock, however long it takes here. */
@@ -131,6 +131,7 @@ test("a context that was lost and comes back is drawn with again", async () => {
 test("a context that stays lost gives way to the flat picture, without a word in the console", async () => {
   const { page, wrong, close } = await open(one);
   await page.waitForSelector(".replay canvas");
+  await menu(page);
   await page.getByRole("button", { name: "Frames" }).click();
   await page.evaluate(() => document.querySelector(".replay canvas").getContext("webgl2").getExtension("WEBGL_lose_context").loseContext());
   await page.waitForSelector(".replay-side");
@@ -195,6 +196,7 @@ test("names of frames are in the picture on paper, and not over it", async () =>
     return count;
   });
   const before = await dark();
+  await menu(page);
   await page.getByRole("button", { name: "Frames" }).click();
   await soon(async () => {
     const now = await dark();
@@ -208,6 +210,7 @@ test("names of frames are in the picture on paper, and not over it", async () =>
 test("a frame's name lies on none of its letters", async () => {
   const { page, close } = await open(one);
   await page.waitForSelector(".replay canvas");
+  await menu(page);
   await page.getByRole("button", { name: "Frames" }).click();
   for (const view of ["Fit", "Side", "Top"]) {
     await page.getByRole("button", { name: view, exact: true }).click();

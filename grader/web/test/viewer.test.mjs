@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { launch } from "./browser.mjs";
 import { page as html, replay, truth } from "./fixture.mjs";
-import { near, one, open, shown, three, write } from "./made.mjs";
+import { menu, near, one, open, shown, three, write } from "./made.mjs";
 import { violations } from "./page_checks.mjs";
 import { frames, soon } from "./waiting.mjs";
 
@@ -200,6 +200,7 @@ test("the link of the moment can be copied", async () => {
 test("two runs are identified by their names", async () => {
   const { page, close } = await open(write("two.html", html([{ ...replay({ seconds: 0.5 }), mainLabel: "A", ghostLabel: "B" }])));
   assert.match(await page.locator(".replay-legend").textContent(), /run A.*run B.*path of run B/);
+  await menu(page);
   await page.getByRole("button", { name: "Run B" }).click();
   assert.equal(await page.getByRole("button", { name: "Run B" }).getAttribute("aria-pressed"), "false");
   await close();
@@ -208,6 +209,7 @@ test("two runs are identified by their names", async () => {
 test("the whole run is in the picture from every side", async () => {
   const { page, close } = await open(one);
   await page.waitForSelector(".replay canvas");
+  await menu(page);
   for (const view of ["Fit", "Side", "Top"]) {
     await page.getByRole("button", { name: view, exact: true }).click();
     await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
@@ -284,6 +286,7 @@ test("words from outside stay words", async () => {
   run.frames.forEach((frame) => (frame.name = bad));
   run.joints.forEach((joint) => (joint.name = bad));
   const { page, wrong, close } = await open(write("hostile.html", html([run])));
+  await menu(page);
   await page.getByRole("button", { name: "Frames" }).click();
   await page.locator(".replay-targets button").first().hover();
   await page.waitForTimeout(200);
@@ -297,6 +300,7 @@ test("without WebGL the run is drawn flat, with the same cursor and controls", a
   try {
     const { page, wrong, close } = await open(`${one}#task=knock&t=2.35`, {}, flat);
     assert.match(await page.locator(".replay-note").textContent(), /no WebGL, so the run is drawn flat/);
+    await menu(page);
     assert.equal(await page.getByRole("button", { name: "Side" }).isVisible(), false);
     const dot = () => page.locator(".side-tcp").evaluate((dot) => [Number(dot.getAttribute("cx")), Number(dot.getAttribute("cy"))]);
     const { tcp } = truth(2350);
