@@ -20,6 +20,8 @@ export class Cursor {
   readonly frameTimes = new FrameTimes();
   private readonly listeners: Record<Change, Array<() => void>> = { moved: [], rested: [], ended: [], changed: [] };
   private last = 0;
+  /** The moment that is gone back to, while another one is only looked at. */
+  private kept: number | null = null;
 
   constructor(private readonly replay: Replay) {
     const { ticks, stepS } = replay;
@@ -51,13 +53,44 @@ export class Cursor {
     this.notify("moved");
   }
 
+  /** The moment of the tick nearest to one \[s\], within the run. */
+  private nearest(t: number): number {
+    const inside = Math.min(this.end, Math.max(this.start, t));
+    return this.timeOf(Math.round(inside / this.replay.stepS));
+  }
+
   /** Stops, and goes to the tick nearest to a moment \[s\]; what is no number changes nothing. */
   seek(t: number): void {
     if (Number.isNaN(t)) return;
+    this.kept = null;
     this.stop();
-    const inside = Math.min(this.end, Math.max(this.start, t));
-    this.put(this.timeOf(Math.round(inside / this.replay.stepS)));
+    this.put(this.nearest(t));
     this.notify("rested");
+  }
+
+  /** Shows the tick nearest to a moment \[s\] until `back` or `stay`; a run that plays plays on. */
+  peek(t: number): void {
+    if (this.playing || Number.isNaN(t)) return;
+    this.kept ??= this.t;
+    this.put(this.nearest(t));
+  }
+
+  /** Leaves what is only looked at, for the moment where the run rests. */
+  back(): void {
+    if (this.kept === null) return;
+    const t = this.kept;
+    this.kept = null;
+    this.put(t);
+  }
+
+  /** Rests at what was only looked at. */
+  stay(): void {
+    if (this.kept !== null) this.seek(this.t);
+  }
+
+  /** Where the run rests, whatever is only looked at \[s\]. */
+  get rest(): number {
+    return this.kept ?? this.t;
   }
 
   /** Stops, and goes to a tick. */
@@ -67,6 +100,11 @@ export class Cursor {
 
   /** Stops and goes `frames` frames on, or back where negative. */
   step(frames: number): void {
+    this.seek(this.stepped(frames));
+  }
+
+  /** The moment `frames` frames on, or back where negative \[s\]. */
+  stepped(frames: number): number {
     const ticks = this.replay.ticks;
     const tick = this.tick;
     let low = 0;
@@ -78,7 +116,7 @@ export class Cursor {
     }
     // between two frames a step back leads to the one before, a step on to the one after
     const here = low < ticks.length && ticks[low] === tick ? low : frames < 0 ? low : low - 1;
-    this.seekTick(ticks[Math.min(ticks.length - 1, Math.max(0, here + frames))]);
+    return this.timeOf(ticks[Math.min(ticks.length - 1, Math.max(0, here + frames))]);
   }
 
   /** The next event after this moment, or the last before it. */
@@ -103,6 +141,7 @@ export class Cursor {
 
   play(): void {
     if (this.playing || !this.moves) return;
+    this.back();
     if (this.t >= this.end) this.put(this.start);
     this.playing = true;
     this.last = 0;

@@ -1,6 +1,15 @@
 // The keys of a replay, while it has focus.
 
-import type { Cursor } from "./cursor";
+/** What the keys move: the run itself, or what is looked at of it. */
+export interface Steered {
+  readonly start: number;
+  readonly end: number;
+  readonly loop: boolean;
+  step(frames: number): void;
+  seek(t: number): void;
+  toggle(): void;
+  setLoop(loop: boolean): void;
+}
 
 /** Elements that do something of their own with the space bar or with arrows. */
 const PRESSED = "button, select, a, summary, input:not([type=range]), textarea";
@@ -8,7 +17,7 @@ const PRESSED = "button, select, a, summary, input:not([type=range]), textarea";
 /** Keys that switch something on or off. */
 const SWITCHES = [" ", "l", "L"];
 
-export function listen(root: HTMLElement, cursor: Cursor, event: (direction: 1 | -1) => void): void {
+export function listen(root: HTMLElement, cursor: Steered, event: (direction: 1 | -1) => void): void {
   root.addEventListener("keydown", (key) => {
     // many keyboards have the brackets behind AltGr, which counts as both others
     const plain = !(key.ctrlKey || key.metaKey || key.altKey) || key.getModifierState("AltGraph");

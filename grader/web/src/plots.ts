@@ -1,4 +1,5 @@
-// The plots of a task: the cursor in each, the values under the pointer or at the cursor, a click and keys that seek.
+// The plots of a task: the cursor in each, the values under the pointer or at the cursor. Pointer and keys show other moments of the run;
+// a click and Enter stay there.
 
 import type { Cursor } from "./cursor";
 import { drawing, element } from "./dom";
@@ -140,12 +141,27 @@ export class Plot {
   private byKeys(): void {
     const { figure, cursor } = this;
     figure.tabIndex = 0;
-    figure.setAttribute("aria-description", "Arrow keys move through the run and read out its values; Escape hides them.");
-    listen(figure, cursor, this.acts.event);
+    figure.setAttribute("aria-description", "Arrow keys show other moments of the run and read out their values. Enter stays there; Escape, or leaving, goes back.");
+    const look = (t: number): void => {
+      cursor.pause();
+      cursor.peek(t);
+    };
+    listen(figure, {
+      start: cursor.start,
+      end: cursor.end,
+      get loop() {
+        return cursor.loop;
+      },
+      step: (frames) => look(cursor.stepped(frames)),
+      seek: look,
+      toggle: () => cursor.toggle(),
+      setLoop: (loop) => cursor.setLoop(loop),
+    }, this.acts.event);
     // after the keys have done what they do
     let last = cursor.t;
     figure.addEventListener("keydown", (event) => {
       if (event.key === "Escape" || event.key === "Tab") return;
+      if (event.key === "Enter" && event.target === figure) cursor.stay();
       this.stay();
       if (cursor.t !== last && !cursor.playing) this.acts.say(this.said());
       last = cursor.t;
@@ -245,13 +261,13 @@ export class Plot {
   private click(event: MouseEvent): void {
     const found = this.under(event);
     if (!found) return;
-    this.cursor.pause();
     this.cursor.seek(this.time(found.panel, found.x));
     this.acts.sought();
   }
 
-  /** Hides the values. */
+  /** Hides the values, and leaves the moment that was only looked at. */
   leave(): void {
+    if (!this.box.hidden) this.cursor.back();
     this.held = false;
     this.box.hidden = true;
     if (this.hover) this.hover.style.visibility = "hidden";
@@ -271,6 +287,7 @@ export class Plot {
     const t = this.cursor.timeOf(Math.round(this.time(panel, x) / this.stepS));
     this.write(t, this.rows(panel, t), panel.name, y);
     this.place(x, event.clientY);
+    this.cursor.peek(t);
   }
 
   /** What stands at a moment, a row for each line. */

@@ -163,7 +163,9 @@ export class Replay {
   private follow(): void {
     this.world.at(this.cursor.t);
     this.view.invalidate();
-    this.readout.follow();
+    // what is looked at is read at once; while it plays, as often as one reads
+    if (this.cursor.playing) this.readout.follow();
+    else this.readout.write();
     for (let i = 0; i < this.plots.length; i++) this.plots[i].follow();
   }
 
@@ -185,8 +187,8 @@ export class Replay {
   }
 
   state(): State {
-    const { t, speed, loop } = this.cursor;
-    return { t, speed, loop, parts: { ...this.parts } };
+    const { rest, speed, loop } = this.cursor;
+    return { t: rest, speed, loop, parts: { ...this.parts } };
   }
 
   /** Puts it as it stood. What comes from outside may be of another version, so each part is looked at. */
