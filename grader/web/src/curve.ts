@@ -34,6 +34,24 @@ export function pieces(d: string, band: boolean, dashes: string | null = null): 
   });
 }
 
+/** The way through the middle of a band, from left to right, as a path. */
+export function middleOf({ x, y }: Piece): string {
+  const ends = new Map<number, [number, number]>();
+  x.forEach((at, i) => {
+    const known = ends.get(at);
+    if (known) known[0] = Math.min(known[0], y[i]), (known[1] = Math.max(known[1], y[i]));
+    else ends.set(at, [y[i], y[i]]);
+  });
+  let before = [0, 0];
+  const steps = [...ends].sort((a, b) => a[0] - b[0]).map(([at, [top, bottom]]) => {
+    const to = [at, Math.round(0.5 * (top + bottom))];
+    const step = `${to[0] - before[0]} ${to[1] - before[1]}`;
+    before = to;
+    return step;
+  });
+  return steps.length ? `m${steps.join(" ")}` : "";
+}
+
 /** All lines and bands of a picture, by their colour in capitals. */
 export function drawn(svg: SVGSVGElement): Map<string, Piece[]> {
   const all = new Map<string, Piece[]>();

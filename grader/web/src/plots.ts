@@ -1,11 +1,15 @@
 // The plots of a task: the cursor in each, the values under the pointer or at the cursor. Pointer and keys show other moments of the run;
-// a click and Enter stay there.
+// a click and Enter stay there. All plots of a task show the same stretch of time, which wheel, drag and keys change.
 
+import { button } from "./button";
+import { beyond } from "./costly";
 import type { Cursor } from "./cursor";
 import { drawing, element } from "./dom";
-import { drawn, inside, ofLine, spanAt, type Piece } from "./curve";
+import { drawn, inside, middleOf, ofLine, pieces, spanAt, type Piece } from "./curve";
 import { listen } from "./keys";
 import { words } from "./reading";
+import { Stretched } from "./stretched";
+import { TimeWindow } from "./time_window";
 import { seconds } from "./words";
 import type { World } from "./world";
 
@@ -31,6 +35,9 @@ interface TimePanel {
   readonly unit: string;
   /** Whether equal ways up are equal ratios. */
   readonly log?: boolean;
+  /** Values that earn all points, and none, where it has one of each. */
+  readonly full?: number;
+  readonly zero?: number;
   /** What stands above it. */
   readonly name?: string;
   readonly series: readonly Series[];
@@ -50,6 +57,13 @@ type Panel = TimePanel | PlanePanel;
 /** Rows of a box of values. */
 const MOST_ROWS = 12;
 const GAP = 12;
+/** A pointer that moved less than this was not dragged \[px\]. */
+const DRAG = 6;
+/** How much one press of a key zooms. */
+const ZOOM = 1.6;
+/** Distance of the lines that hatch what costs points, in units of the picture. */
+const HATCH = 70;
+let hatches = 0;
 
 const numbers = (value: unknown, count: number): value is number[] =>
   Array.isArray(value) && value.length === count && value.every((v) => typeof v === "number" && Number.isFinite(v));
@@ -99,6 +113,13 @@ export class Plot {
   private held = false;
   private readonly box = element("div", { class: "replay-values", "aria-hidden": "true" });
   private hover: SVGElement | null = null;
+  private readonly stretched: Array<{ panel: TimePanel; drawn: Stretched }> = [];
+  private drag: { panel: TimePanel; x: number; clientX: number; moved: boolean } | null = null;
+  private readonly picked = drawing("rect", { class: "replay-picked" });
+  private readonly reset = button("Whole run", null, () => {
+    this.window.reset();
+    this.figure.focus({ preventScroll: true });
+  });
 
   constructor(
     private readonly figure: HTMLElement,
@@ -106,6 +127,7 @@ export class Plot {
     private readonly cursor: Cursor,
     private readonly world: World,
     private readonly stepS: number,
+    private readonly window: TimeWindow,
     private readonly acts: Acts,
   ) {
     const overlay = drawing("g", { class: "replay-overlay", "aria-hidden": "true" });
@@ -125,12 +147,23 @@ export class Plot {
     if (this.hands.some((hand) => hand.panel.kind === "time")) {
       const line = drawing("line", { class: "replay-hover" });
       line.style.visibility = "hidden";
-      overlay.append(line);
+      this.picked.style.visibility = "hidden";
+      overlay.append(this.picked, line);
       this.hover = line;
+      this.reset.classList.add("replay-reset");
+      this.reset.hidden = true;
+      figure.append(this.reset);
+      window.on(() => this.stretch());
       svg.addEventListener("pointermove", (event) => this.point(event));
-      svg.addEventListener("pointerdown", (event) => this.point(event));
+      svg.addEventListener("pointerdown", (event) => this.press(event));
+      svg.addEventListener("pointerup", () => this.release());
+      svg.addEventListener("dblclick", () => window.reset());
+      svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
       figure.addEventListener("pointerleave", () => this.leave());
-      svg.addEventListener("pointercancel", () => this.leave());
+      svg.addEventListener("pointercancel", () => {
+        this.drag = null;
+        this.leave();
+      });
       svg.addEventListener("click", (event) => this.click(event));
       this.byKeys();
     }
@@ -141,11 +174,13 @@ export class Plot {
   private byKeys(): void {
     const { figure, cursor } = this;
     figure.tabIndex = 0;
-    figure.setAttribute("aria-description", "Arrow keys show other moments of the run and read out their values. Enter stays there; Escape, or leaving, goes back.");
+    figure.setAttribute("aria-description", "Arrow keys show other moments of the run and read out their values. Enter stays there; Escape, or leaving, goes back. Plus and minus zoom the time, 0 shows the whole run.");
     const look = (t: number): void => {
       cursor.pause();
       cursor.peek(t);
+      this.window.hold(cursor.t);
     };
+    figure.addEventListener("keydown", (event) => this.zoomKey(event));
     listen(figure, {
       start: cursor.start,
       end: cursor.end,
@@ -186,7 +221,7 @@ export class Plot {
     if (this.hover) this.hover.style.visibility = "hidden";
     this.write(this.cursor.t, panels.flatMap((panel) => this.rows(panel, this.cursor.t)), panels.length === 1 ? panels[0].name : undefined);
     const { top, bottom } = this.figure.getBoundingClientRect();
-    this.place(this.across(panels[0], this.cursor.t), 0.5 * (Math.max(0, top) + Math.min(innerHeight, bottom)));
+    this.place(this.seen(panels[0], this.cursor.t), 0.5 * (Math.max(0, top) + Math.min(innerHeight, bottom)));
   }
 
   /** The moment and all values there. */
@@ -202,7 +237,128 @@ export class Plot {
 
   /** Reads the picture, which takes its time, before anyone asks. */
   read(): void {
-    this.paths ??= drawn(this.svg);
+    if (this.paths) return;
+    this.paths = drawn(this.svg);
+    for (const panel of this.timePanels()) {
+      const shaded = this.shade(panel);
+      const still = new Stretched(this.svg, panel.box, panel.t);
+      still.add(shaded);
+      this.stretched.push({ panel, drawn: still });
+      this.thin(panel, still);
+    }
+    if (this.window.shown) this.stretch();
+  }
+
+  /** The pieces of a series in its panel. */
+  private curve(panel: TimePanel, series: Series): Piece[] {
+    let curve = this.curves.get(series);
+    if (!curve) this.curves.set(series, (curve = inside(ofLine(this.paths, series.colour, series.dashes ?? null), panel.box, this.unit())));
+    return curve;
+  }
+
+  /** Hatches where the curve costs points, and says in words what is hatched. */
+  private shade(panel: TimePanel): SVGElement[] {
+    const { full, zero, series, box: [left, top, right, foot] } = panel;
+    if (full === undefined || zero === undefined || full === zero || series.length === 0) return [];
+    const share = panel.log ? Math.log(full / panel.y[0]) / Math.log(panel.y[1] / panel.y[0]) : (full - panel.y[0]) / (panel.y[1] - panel.y[0]);
+    if (!Number.isFinite(share)) return [];
+    const height = Math.min(foot, Math.max(top, foot - share * (foot - top)));
+    const id = `hatch-${++hatches}`;
+    const found = beyond(this.curve(panel, series[0]), height, zero > full);
+    const areas = found.map(([from, to]) => {
+      const [a, b] = [Math.max(left, from), Math.min(right, to)];
+      return drawing("rect", { class: "replay-costly", x: a.toFixed(0), y: String(top), width: Math.max(10, b - a).toFixed(0), height: String(foot - top), fill: `url(#${id})` });
+    });
+    if (areas.length === 0) return [];
+    const hatch = (): SVGElement => drawing("pattern", { id, width: String(HATCH), height: String(HATCH), patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)", class: "replay-hatch" }, drawing("rect", { width: String(HATCH), height: String(HATCH) }), drawing("line", { x1: "0", x2: "0", y1: "0", y2: String(HATCH) }));
+    // below all lines, above the paper
+    this.svg.querySelector("path")?.before(hatch(), ...areas);
+    const swatch = drawing("svg", { class: "replay-swatch", viewBox: "0 0 280 160", width: "28", height: "16", "aria-hidden": "true" }, drawing("rect", { width: "280", height: "160", class: "replay-costly", fill: `url(#${id})` }));
+    if (!this.figure.querySelector(".replay-costs")) this.figure.append(element("p", { class: "replay-costs" }, swatch, "hatched: beyond what earns all points"));
+    return areas;
+  }
+
+  /** Where values go up and down faster than can be seen, lightens their band and draws the middle of it. */
+  private thin(panel: TimePanel, still: Stretched): void {
+    for (const path of this.svg.querySelectorAll<SVGPathElement>("path[opacity]")) {
+      const series = panel.series.find(({ colour }) => colour.toUpperCase() === path.getAttribute("fill")?.toUpperCase());
+      const bands = series ? inside(pieces(path.getAttribute("d") ?? "", true), panel.box, this.unit()) : [];
+      if (!series || bands.length === 0) continue;
+      path.classList.add("replay-band");
+      const middle = drawing("path", { class: "replay-middle", fill: "none", stroke: series.colour, d: bands.map((band) => middleOf(band)).join("") });
+      path.after(middle);
+      still.take(middle);
+    }
+  }
+
+  /** Draws all panels for the stretch of time that is shown. */
+  private stretch(): void {
+    this.read();
+    const { shown } = this.window;
+    for (const { drawn: still } of this.stretched) still.show(shown);
+    this.reset.hidden = shown === null;
+    for (const hand of this.hands) hand.x = NaN;
+    this.follow();
+  }
+
+  /** The moments at the left and at the right end. */
+  private range(panel: TimePanel): readonly number[] {
+    return this.window.shown ?? panel.t;
+  }
+
+  private zoomKey(event: KeyboardEvent): void {
+    if (event.target !== this.figure || event.ctrlKey || event.metaKey || event.altKey) return;
+    const { window, cursor } = this;
+    const acts: Record<string, () => void> = {
+      "+": () => window.zoom(1 / ZOOM, cursor.t),
+      "=": () => window.zoom(1 / ZOOM, cursor.t),
+      "-": () => window.zoom(ZOOM, cursor.t),
+      "0": () => window.reset(),
+      // the whole run first, then its start
+      ...(window.shown ? { Home: () => window.reset() } : {}),
+    };
+    const act = acts[event.key];
+    if (!act) return;
+    event.preventDefault();
+    act();
+  }
+
+  /** The wheel zooms with Ctrl, or after a click into the plot, so that a reader who scrolls is not caught. */
+  private wheel(event: WheelEvent): void {
+    if (!event.ctrlKey && !event.metaKey && document.activeElement !== this.figure) return;
+    const found = this.under(event);
+    if (!found) return;
+    event.preventDefault();
+    const lines = event.deltaMode === 1 ? 16 : 1;
+    this.window.zoom(Math.exp(Math.min(0.5, Math.max(-0.5, 0.002 * lines * event.deltaY))), this.time(found.panel, found.x));
+    this.point(event);
+  }
+
+  private press(event: PointerEvent): void {
+    const found = this.under(event);
+    if (found && event.button === 0) this.drag = { panel: found.panel, x: found.x, clientX: event.clientX, moved: false };
+    this.point(event);
+  }
+
+  /** Marks the stretch that is dragged over. */
+  private pick(event: MouseEvent): void {
+    const { drag, picked } = this;
+    if (!drag || (event.buttons & 1) === 0) return;
+    const found = this.under(event);
+    if (Math.abs(event.clientX - drag.clientX) < DRAG || found?.panel !== drag.panel) return;
+    drag.moved = true;
+    const [, top, , bottom] = drag.panel.box;
+    for (const [name, value] of [["x", Math.min(drag.x, found.x)], ["width", Math.abs(found.x - drag.x)], ["y", top], ["height", bottom - top]] as const) picked.setAttribute(name, value.toFixed(0));
+    picked.style.visibility = "visible";
+  }
+
+  private release(): void {
+    const { drag, picked } = this;
+    picked.style.visibility = "hidden";
+    if (!drag?.moved) return;
+    const x = Number(picked.getAttribute("x"));
+    const ends = [x, x + Number(picked.getAttribute("width"))].map((at) => this.time(drag.panel, at));
+    this.window.show(ends[0], ends[1]);
   }
 
   /** Units of the picture in ten pixels as it was drawn. */
@@ -220,7 +376,10 @@ export class Plot {
       let x: number;
       let y = 0;
       if (panel.kind === "time") {
-        x = this.across(panel, this.cursor.t);
+        const [from, to] = this.range(panel);
+        const slack = 0.001 * (to - from);
+        hand.mark.style.visibility = this.cursor.t < from - slack || this.cursor.t > to + slack ? "hidden" : "";
+        x = this.seen(panel, this.cursor.t);
       } else {
         x = panel.zero[0] + panel.signs[0] * this.world.tcp[panel.axes[0]] * panel.pixelsPerM;
         y = panel.zero[1] - panel.signs[1] * this.world.tcp[panel.axes[1]] * panel.pixelsPerM;
@@ -249,9 +408,18 @@ export class Plot {
 
   private time(panel: TimePanel, x: number): number {
     const [left, , right] = panel.box;
-    return panel.t[0] + ((x - left) / (right - left)) * (panel.t[1] - panel.t[0]);
+    const [from, to] = this.range(panel);
+    return from + ((x - left) / (right - left)) * (to - from);
   }
 
+  /** Where a moment is seen, in the stretch that is shown. */
+  private seen(panel: TimePanel, t: number): number {
+    const [left, , right] = panel.box;
+    const [from, to] = this.range(panel);
+    return left + Math.min(1, Math.max(0, (t - from) / (to - from))) * (right - left);
+  }
+
+  /** Where a moment was drawn. */
   private across(panel: TimePanel, t: number): number {
     const [left, , right] = panel.box;
     const share = (t - panel.t[0]) / (panel.t[1] - panel.t[0]);
@@ -260,7 +428,9 @@ export class Plot {
 
   private click(event: MouseEvent): void {
     const found = this.under(event);
-    if (!found) return;
+    const dragged = this.drag?.moved ?? false;
+    this.drag = null;
+    if (!found || dragged) return;
     this.cursor.seek(this.time(found.panel, found.x));
     this.acts.sought();
   }
@@ -273,7 +443,8 @@ export class Plot {
     if (this.hover) this.hover.style.visibility = "hidden";
   }
 
-  private point(event: PointerEvent): void {
+  private point(event: MouseEvent): void {
+    this.pick(event);
     const found = this.under(event);
     if (!found || !this.hover) {
       this.leave();
@@ -297,9 +468,7 @@ export class Plot {
     const scale = { foot, top, low: panel.y[0], high: panel.y[1], log: panel.log ?? false };
     const x = this.across(panel, t);
     return panel.series.flatMap((series) => {
-      let curve = this.curves.get(series);
-      if (!curve) this.curves.set(series, (curve = inside(ofLine(this.paths, series.colour, series.dashes ?? null), panel.box, this.unit())));
-      const span = spanAt(curve, x, series.pad ?? 0);
+      const span = spanAt(this.curve(panel, series), x, series.pad ?? 0);
       if (!span) return [];
       const text = words(scale, span, { off: series.off ?? 1, cut: series.cut });
       return [{ panel, series, at: 0.5 * (span[0] + span[1]), text: panel.unit ? `${text}\u00a0${panel.unit}` : text }];
@@ -360,15 +529,23 @@ function idle(work: Array<() => void>): void {
 /** The plots of a task on this page. A figure that cannot be read stays a picture. */
 export function plots(task: string, cursor: Cursor, world: World, stepS: number, acts: Acts): Plot[] {
   const out: Plot[] = [];
+  const window = new TimeWindow(0, cursor.end, stepS);
   for (const figure of document.querySelectorAll<HTMLElement>("figure[data-panels]")) {
     const svg = figure.querySelector("svg");
     if (figure.dataset.task !== task || !svg) continue;
     try {
-      out.push(new Plot(figure, svg, cursor, world, stepS, acts));
+      out.push(new Plot(figure, svg, cursor, world, stepS, window, acts));
     } catch {
       // the picture itself is there
     }
   }
+  // paper has the whole run
+  let shown: TimeWindow["shown"] = null;
+  addEventListener("beforeprint", () => {
+    shown = window.shown;
+    window.reset();
+  });
+  addEventListener("afterprint", () => shown && window.show(...shown));
   idle(out.map((plot) => () => plot.read()));
   document.addEventListener("keydown", (event) => event.key === "Escape" && out.forEach((plot) => plot.leave()));
   return out;

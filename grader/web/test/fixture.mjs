@@ -197,10 +197,11 @@ function figure(task, seconds) {
     const sample = [[700 + 1500 * j, 300], [900 + 1500 * j, 300]];
     return path(points, colour) + path(sample, colour);
   });
-  const panels = [{ kind: "time", box: [left, top, right, bottom], t: [0, seconds], y: [low, high], unit: "rad", series }];
+  const panels = [{ kind: "time", box: [left, top, right, bottom], t: [0, seconds], y: [low, high], unit: "rad", full: 0.5, zero: 1, series }];
+  const numbers = [0, 1, 2, 3, 4].map((i) => `<text x="${left + (i * (right - left)) / 4}" y="2230" font-size="130" text-anchor="middle" fill="#545E6C">${(i * seconds) / 4}</text>`);
   return `<figure class="plot" tabindex="0" aria-label="Joints" data-task="${escape(task)}" data-panels="${escape(JSON.stringify(panels))}">
 <svg xmlns="http://www.w3.org/2000/svg" class="plot" role="img" width="640" height="250" viewBox="0 0 6400 2500"><title>Joints</title>
-<rect x="${left}" y="${top}" width="${right - left}" height="${bottom - top}" fill="none" stroke="#B0B9C5" stroke-width="10"/>${lines.join("")}
+<rect x="${left}" y="${top}" width="${right - left}" height="${bottom - top}" fill="none" stroke="#B0B9C5" stroke-width="10"/>${lines.join("")}${numbers.join("")}
 <text x="3400" y="2400" font-size="130" text-anchor="middle" fill="#545E6C">time [s]</text></svg></figure>`;
 }
 

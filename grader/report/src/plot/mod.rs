@@ -359,6 +359,26 @@ mod tests {
     }
 
     #[test]
+    fn the_band_of_a_judged_curve_is_known_to_a_reader() {
+        let mut run = sample::task_run();
+        let axes = |run: &TaskRun| -> serde_json::Value {
+            let plots = plots(run);
+            let plot = plots.iter().find(|plot| plot.name.contains("-check-"));
+            serde_json::from_str(&plot.expect("a curve").axes).expect("JSON")
+        };
+        (run.curves[0].full, run.curves[0].zero) = (Some(0.25), Some(0.5));
+        run.curves[0].unit = "rad".to_owned();
+        let panel = axes(&run)[0].clone();
+        assert_eq!(
+            (&panel["full"], &panel["zero"]),
+            (&0.25.into(), &0.5.into())
+        );
+        // without an end there is no side that costs points
+        run.curves[0].zero = None;
+        assert!(axes(&run)[0].get("full").is_none());
+    }
+
+    #[test]
     fn every_axis_has_two_numbers() {
         for height in [105.0, 125.0, 150.0, 210.0] {
             for (min, max) in [

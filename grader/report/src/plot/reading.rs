@@ -7,7 +7,7 @@ use super::course::Course;
 use super::plane::Plane;
 use super::timeline::Panel;
 use super::view::View;
-use crate::palette::{MUTED_DASHED, RED, hex};
+use crate::palette::{Colour, GREEN_DASHED, MUTED_DASHED, RED, VERMILLION_DASHED, hex};
 use crate::visible::visible;
 
 /// One pair of axes; places are in units of the picture, y downwards.
@@ -37,6 +37,11 @@ pub(super) struct OverTime {
     unit: String,
     /// What stands above the panel.
     name: String,
+    /// Values that earn all points and none, where the panel has one of each.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    full: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    zero: Option<f64>,
     series: Vec<Series>,
 }
 
@@ -92,6 +97,13 @@ impl Axes {
         end_s: f64,
         [left, top, right, bottom]: [f64; 4],
     ) -> Self {
+        // of several goals each has a band of its own, which no one curve is judged by
+        let only = |colour: Colour| {
+            let mut levels = panel.levels.iter().filter(|level| level.1 == colour);
+            let first = levels.next().map(|level| level.0);
+            first.filter(|value| levels.next().is_none() && value.is_finite())
+        };
+        let band = only(GREEN_DASHED).zip(only(VERMILLION_DASHED));
         let mut series: Vec<Series> = Vec::new();
         for (line, course) in panel.lines.iter().zip(courses) {
             let (colour, dashes) = (hex(line.colour.light), line.colour.dashes);
@@ -120,6 +132,8 @@ impl Axes {
             log: panel.axis.is_logarithmic(),
             unit: visible(&panel.unit).into_owned(),
             name: panel.name.clone(),
+            full: band.map(|(full, _)| full),
+            zero: band.map(|(_, zero)| zero),
             series,
         })
     }
