@@ -5,6 +5,9 @@ import { FrameTimes, onFrame, stopFrames } from "./frames";
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4] as const;
 
+/** A frame this late says that the machine slept \[s\]. */
+const ASLEEP_S = 3;
+
 /** What happened: the time moved; it came to rest (paused or sought); it played to its end; play, speed or loop changed. */
 export type Change = "moved" | "rested" | "ended" | "changed";
 
@@ -28,6 +31,7 @@ export class Cursor {
     this.start = ticks[0] * stepS;
     this.end = ticks[ticks.length - 1] * stepS;
     this.t = this.start;
+    document.addEventListener("visibilitychange", () => (this.last = 0));
   }
 
   on(change: Change, listener: () => void): void {
@@ -177,8 +181,9 @@ export class Cursor {
   }
 
   private readonly advance = (now: number): void => {
-    // a page that was asleep goes on where it was
-    const passed = this.last === 0 ? 0 : Math.min(0.1, (now - this.last) / 1000);
+    // a slow machine shows fewer frames and keeps the time; a page that was hidden or asleep goes on where it was
+    const since = this.last === 0 ? 0 : (now - this.last) / 1000;
+    const passed = since > ASLEEP_S ? 0 : since;
     this.last = now;
     const t = this.t + passed * this.speed;
     if (t < this.end) this.put(t);

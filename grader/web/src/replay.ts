@@ -76,6 +76,7 @@ export class Replay {
       shown: (part) => this.parts[part],
       fullScreen: document.fullscreenEnabled ? () => this.fill() : null,
     });
+    this.view.tooSlow = () => this.controls.show("shadows", false);
     this.note.hidden = true;
     this.shared.hidden = true;
     const ended = data.ended ? [element("p", { class: "replay-ended" }, `The run ended early: ${data.ended}`)] : [];

@@ -24,6 +24,9 @@ const ASLEEP_MS = 1000;
 /** So many late pictures in a row, each in the frame after the one before, make the next ones coarser. */
 const MOST_LATE = 10;
 const COARSER = 2;
+/** So many pictures in a row with less than twenty a second are too much with shadows. */
+const SLOW_MS = 50;
+const MOST_SLOW = 12;
 /** What moved coarsely is sharp again this long after it stopped \[ms\]. */
 const SETTLE_MS = 250;
 /** How long a context that was lost is waited for \[ms\], and how often; losses this far apart are each the first. */
@@ -53,6 +56,7 @@ export class Stage implements View {
   private last = 0;
   private beaten = 0;
   private late = 0;
+  private slow = 0;
   private coarse = false;
   private settles = 0;
   /** Pixels of the screen in a pixel of the page, as the canvas was sized for them. */
@@ -63,6 +67,8 @@ export class Stage implements View {
   private readonly undo: Array<() => void> = [];
   private readonly point = new Vector3();
   drawnOver?: (project: Project) => void;
+  /** Called once, when pictures with shadows come too slowly. */
+  tooSlow?: (() => void) | undefined;
 
   constructor(
     replay: Scenery,
@@ -232,7 +238,7 @@ export class Stage implements View {
     if (devicePixelRatio !== this.pixels) return this.sharpen(false);
     clearTimeout(this.settles);
     // only pictures in frame after frame show that a machine cannot keep up
-    if (now !== this.beaten) this.late = 0;
+    if (now !== this.beaten) this.late = this.slow = 0;
     const more = this.camera.ease(Math.min(50, now - this.last));
     this.last = now;
     nextFrame(this.beat);
@@ -256,6 +262,13 @@ export class Stage implements View {
     const passed = now - this.last;
     this.beaten = now;
     this.late = passed > LATE_MS && passed < ASLEEP_MS ? this.late + 1 : 0;
+    this.slow = passed > SLOW_MS && passed < ASLEEP_MS ? this.slow + 1 : 0;
+    if (this.slow >= MOST_SLOW && this.parts.shadows) {
+      const act = this.tooSlow;
+      // who turns them on again has them
+      this.tooSlow = undefined;
+      act?.();
+    }
     if (this.coarse) this.settles = window.setTimeout(() => this.sharpen(false), SETTLE_MS);
     else if (this.late >= MOST_LATE) {
       this.coarse = true;

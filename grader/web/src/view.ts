@@ -28,6 +28,8 @@ export interface View {
   readonly camera?: Camera;
   /** Called after each picture, for what lies over it. */
   drawnOver?: (project: Project) => void;
+  /** Called once, when pictures with shadows come too slowly. */
+  tooSlow?: (() => void) | undefined;
   /** A picture of the moment for paper, where the element does not print by itself. */
   picture?(): string | null;
 }
