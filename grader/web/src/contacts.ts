@@ -9,9 +9,8 @@ export interface ContactMark {
   readonly to: number;
   /** Size as a part of the greatest. */
   readonly size: number;
-  /** How much it covers while it lasts, and when it is over: what is over is still shown, more quietly. */
+  /** How much it covers while it lasts. */
   readonly lasting: number;
-  readonly over: number;
 }
 
 /** The marks of a run, at most so many: those of the arm first, then by impulse. */
@@ -30,13 +29,11 @@ export function contactMarks(replay: Scenery, most: number): ContactMark[] {
       to: contact.to,
       size: arm ? 0.65 + 0.35 * Math.sqrt(share) : 0.5,
       lasting: arm ? 1 : 0.45,
-      over: arm ? 0.6 : 0.2,
     };
   });
 }
 
-/** How much a mark covers at a tick: nothing before the contact began. */
+/** How much a mark covers at a tick: nothing before the contact began, and nothing once it is over. */
 export function coverAt(mark: ContactMark, tick: number): number {
-  if (tick + 0.5 < mark.from) return 0;
-  return tick - 0.5 <= mark.to ? mark.lasting : mark.over;
+  return tick + 0.5 < mark.from || tick - 0.5 > mark.to ? 0 : mark.lasting;
 }

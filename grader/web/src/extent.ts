@@ -10,6 +10,14 @@ import type { Scenery } from "./data";
 const MOMENTS = 32;
 /** Points of a path that are looked at. */
 const MOST_POINTS = 1500;
+/** Motion that is less than this part of the run's size is none. */
+const FLAT = 0.02;
+
+/** How far aside of straight one looks at a run, and from how high \[rad\]. */
+export interface Look {
+  readonly turn: number;
+  readonly elevation: number;
+}
 
 export interface Extent {
   /** Balls (x, y, z, radius in m) that hull everything worth seeing. */
@@ -23,6 +31,10 @@ export interface Extent {
   readonly side: 0 | 1 | 2;
   /** Whether one looks along that axis from its other end, so that the lab's axis points to the right. */
   readonly flipped: boolean;
+  /** Whether nothing moves along that axis, so that a flat picture shows all of it. */
+  readonly flat: boolean;
+  /** From where the whole is looked at, if not as usual. */
+  readonly look?: Look;
 }
 
 /** A box that grows. */
@@ -124,5 +136,5 @@ export function extent(replay: Scenery, world: Placed): Extent {
     if (Math.abs(spot[across]) > Math.abs(strongest) + 1e-6) strongest = spot[across];
   }
   const low = whole.low[2];
-  return { hull, centre, radius, ground: low < -0.02 * radius ? low : 0, side, flipped: side !== 2 && strongest < -0.5 };
+  return { hull, centre, radius, ground: low < -0.02 * radius ? low : 0, side, flipped: side !== 2 && strongest < -0.5, flat: span[side] < FLAT * radius };
 }

@@ -32,6 +32,9 @@ export class Orbit implements Camera {
   private readonly from: Place = { ...this.now };
   private readonly to: Place = { ...this.now };
   private eased = -1;
+  /** Where what is followed was. */
+  private followed: readonly [number, number, number] | null = null;
+  private follows = false;
   private readonly right = new Vector3();
   private readonly up = new Vector3();
   private readonly back = new Vector3();
@@ -56,6 +59,7 @@ export class Orbit implements Camera {
 
   /** Puts the camera to a view. */
   view(preset: Preset): void {
+    this.follows = false;
     this.put(preset, !reducedMotion());
     this.changed();
   }
@@ -71,8 +75,8 @@ export class Orbit implements Camera {
       elevation = Math.PI / 2;
       turn = -azimuth - Math.PI / 2;
     } else if (preset === "fit") {
-      turn = side === 2 ? -0.5 : 0.5;
-      elevation = side === 2 ? 0.65 : 0.36;
+      turn = this.extent.look?.turn ?? (side === 2 ? -0.5 : 0.5);
+      elevation = this.extent.look?.elevation ?? (side === 2 ? 0.65 : 0.36);
     } else if (side === 2) elevation = Math.PI / 2;
     Object.assign(this.from, this.now);
     const to = this.to;
@@ -169,6 +173,30 @@ export class Orbit implements Camera {
     });
     this.apply();
     this.changed();
+  }
+
+  get following(): boolean {
+    return this.follows;
+  }
+
+  follow(on: boolean): void {
+    this.follows = on;
+    this.followed = null;
+    if (on) this.byHand();
+    this.changed();
+  }
+
+  /** Moves along with what is followed. */
+  track(p: ArrayLike<number>): void {
+    if (!this.follows) return;
+    const { followed, now } = this;
+    this.followed = [p[0], p[1], p[2]];
+    // what jumps out of sight is not run after
+    if (!followed || !(Math.hypot(p[0] - followed[0], p[1] - followed[1], p[2] - followed[2]) < 20 * this.extent.radius)) return;
+    now.x += p[0] - followed[0];
+    now.y += p[1] - followed[1];
+    now.z += p[2] - followed[2];
+    this.apply();
   }
 
   private apply(): void {

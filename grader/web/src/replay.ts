@@ -9,6 +9,7 @@ import { element } from "./dom";
 import { extent, type Extent } from "./extent";
 import { mark } from "./icon";
 import { listen } from "./keys";
+import { lookout } from "./lookout";
 import { Address, copy, format, shareable } from "./links";
 import { plots, type Plot } from "./plots";
 import { Readout } from "./readout";
@@ -51,6 +52,10 @@ export class Replay {
   private readonly shared = element("p", { class: "replay-shared" });
   private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true };
   private view: View;
+  /** The picture in space, while the flat one stands in its place by choice. */
+  private spatial: View | null = null;
+  /** Whether there is no picture in space. */
+  private lost = false;
   private picture: HTMLImageElement | null = null;
   private quiet = false;
 
@@ -61,7 +66,9 @@ export class Replay {
   ) {
     this.cursor = new Cursor(data);
     this.world = new World(data);
-    this.extent = extent(data, new World(data));
+    const looked = new World(data);
+    const size = extent(data, looked);
+    this.extent = { ...size, look: lookout(data, looked, size) };
     this.view = this.open();
     this.scrubber = new Scrubber(data, this.cursor, (event) => this.goTo(event));
     this.readout = new Readout(data, this.world);
@@ -74,6 +81,7 @@ export class Replay {
         this.view.show(part, on);
       },
       shown: (part) => this.parts[part],
+      flatten: this.extent.flat && this.view instanceof Stage ? (on) => this.flatten(on) : null,
       fullScreen: document.fullscreenEnabled ? () => this.fill() : null,
     });
     this.view.tooSlow = () => this.controls.show("shadows", false);
@@ -101,7 +109,10 @@ export class Replay {
     this.cursor.on("rested", () => this.rest());
     this.cursor.on("ended", () => this.announcer.say(`${this.here()}, the end`));
     root.classList.add("on");
-    if (this.view instanceof Side) this.sayFlat("This browser shows no WebGL");
+    if (this.view instanceof Side) {
+      this.lost = true;
+      this.sayFlat("This browser shows no WebGL");
+    }
   }
 
   get task(): string {
@@ -120,7 +131,12 @@ export class Replay {
 
   /** Takes the flat picture where the other one can no longer be had. */
   private fall(): void {
-    if (this.view instanceof Side) return;
+    if (this.lost) return;
+    this.lost = true;
+    if (this.view instanceof Side) {
+      this.sayFlat("The 3D view was lost");
+      return;
+    }
     const before = this.view.element;
     const focused = before.contains(document.activeElement);
     this.view = this.side();
@@ -128,6 +144,18 @@ export class Replay {
     before.replaceWith(this.view.element);
     if (focused) this.view.element.focus({ preventScroll: true });
     this.sayFlat("The 3D view was lost");
+  }
+
+  /** Shows the run flat, from the side, or in space again. */
+  private flatten(on: boolean): void {
+    if (this.lost || on === this.view instanceof Side) return;
+    const before = this.view;
+    const after = on ? this.side() : (this.spatial ?? before);
+    if (on) this.spatial = before;
+    this.view = after;
+    for (const part of ["shadows", "frames", "ghost"] as const) after.show(part, this.parts[part]);
+    before.element.replaceWith(after.element);
+    after.invalidate();
   }
 
   private sayFlat(why: string): void {

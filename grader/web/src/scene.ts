@@ -105,7 +105,7 @@ export class RunScene {
       if (!shape) return;
       const ghost = node.kind === "ghost";
       const material = new MeshLambertMaterial();
-      if (ghost) Object.assign(material, { transparent: true, opacity: 0.34, depthWrite: false });
+      if (ghost) Object.assign(material, { transparent: true, opacity: 0.34, depthWrite: false, polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 8 });
       const mesh = new Mesh(shape, material);
       mesh.castShadow = !ghost;
       mesh.receiveShadow = !ghost;
@@ -188,7 +188,7 @@ export class RunScene {
       const material = glass("contact", 1);
       material.depthTest = false;
       const mesh = add(scene, ball, material, 8);
-      const size = 0.028 * unit * mark.size;
+      const size = 0.014 * unit * mark.size;
       mesh.matrix.makeScale(size, size, size).setPosition(mark.point[0], mark.point[1], mark.point[2]);
       mesh.matrixWorldNeedsUpdate = true;
       this.contacts.push({ mesh, mark });

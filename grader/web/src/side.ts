@@ -102,7 +102,7 @@ export class Side implements View {
     this.drawLab();
     for (const mark of contactMarks(replay, MOST_CONTACTS)) {
       const [x, y] = this.flat(mark.point);
-      const dot = drawing("circle", { class: "side-contact", cx: String(x), cy: String(y), r: String(0.025 * this.unit * mark.size) });
+      const dot = drawing("circle", { class: "side-contact", cx: String(x), cy: String(y), r: String(0.014 * this.unit * mark.size) });
       marks.append(dot);
       this.marks.push({ dot, mark });
     }

@@ -72,7 +72,7 @@ export class Stage implements View {
 
   constructor(
     replay: Scenery,
-    world: Placed,
+    private readonly world: Placed,
     extent: Extent,
     label: string,
     /** Called when the context is gone and cannot be restored. */
@@ -244,6 +244,7 @@ export class Stage implements View {
     nextFrame(this.beat);
     if (more) nextFrame(this.draw);
     this.scene.pose();
+    this.camera.track(this.world.tcpInWorld);
     this.drawn.renderer.render(this.scene.scene, this.camera.camera);
     if (this.parts.frames) this.labels.place(this.camera.camera);
     this.drawnOver?.(this.project);

@@ -10,6 +10,9 @@ export interface Camera {
   /** Whether what turns by a drag moves the picture instead. */
   panning: boolean;
   view(preset: Preset): void;
+  /** Whether the picture moves along with the TCP. */
+  readonly following: boolean;
+  follow(on: boolean): void;
   /** Turns by angles \[rad\]. */
   turn(azimuth: number, elevation: number): void;
   /** Moves by fractions of the picture's height. */

@@ -12,6 +12,8 @@ export interface ViewActions {
   show(part: Part, on: boolean): void;
   /** Whether a part is shown. */
   shown(part: Part): boolean;
+  /** Shows the run flat or in space; none where it is no plane motion, or there is no space. */
+  readonly flatten: ((on: boolean) => void) | null;
 }
 
 /** What the four arrows of the camera do. */
@@ -29,6 +31,10 @@ export class ViewMenu {
   private readonly opener = button("View", "down", () => this.open(Boolean(this.panel.hidden)), null);
   private readonly panel = element("div", { class: "replay-menu", role: "group", "aria-label": "View" });
   private readonly cameraOnly: HTMLElement[] = [];
+  private readonly spatial: HTMLElement[] = [];
+  private readonly plane: HTMLButtonElement;
+  private readonly follow: HTMLButtonElement;
+  private isFlat = false;
   private readonly toggles = new Map<Part, HTMLButtonElement>();
 
   constructor(
@@ -44,9 +50,25 @@ export class ViewMenu {
     const shadows = toggle("Shadows", "shadows");
     const shown = group("Show", toggle("Frames", "frames"), shadows);
     if (replay.nodes.some((node) => node.kind === "ghost")) shown.append(toggle(isReference(replay) ? "Reference arm" : `Run ${replay.ghostLabel}`, "ghost"));
-    const view = (name: string, preset: Preset): HTMLButtonElement => button(name, null, () => actions.view().camera?.view(preset));
-    const from = group("Look from", view("Fit", "fit"), view("Side", "side"), view("Top", "top"));
+    const plane = button("2D", null, () => this.flatten(!this.isFlat));
+    plane.setAttribute("aria-pressed", "false");
+    const view = (name: string, preset: Preset): HTMLButtonElement =>
+      button(name, null, () => {
+        this.flatten(false);
+        actions.view().camera?.view(preset);
+        this.tell();
+      });
+    const from = group("Look from", view("Fit", "fit"), view("Side", "side"), view("Top", "top"), ...(actions.flatten ? [plane] : []));
+    this.plane = plane;
+    this.follow = button("Follow the TCP", null, () => {
+      const at = actions.view().camera;
+      at?.follow(!at.following);
+      this.tell();
+    });
+    this.follow.setAttribute("aria-pressed", "false");
     const camera = this.camera();
+    camera.append(this.follow);
+    this.spatial.push(shadows, camera);
     this.cameraOnly.push(from, shadows, camera);
     this.panel.append(from, shown, camera);
     this.panel.hidden = true;
@@ -63,6 +85,19 @@ export class ViewMenu {
       const at = event.target instanceof Element ? event.target : null;
       if (!this.element.contains(at) && !at?.closest(".replay-stage")) this.open(false);
     });
+  }
+
+  private flatten(on: boolean): void {
+    if (!this.actions.flatten || on === this.isFlat) return;
+    this.isFlat = on;
+    this.actions.flatten(on);
+    this.plane.setAttribute("aria-pressed", String(on));
+    for (const made of this.spatial) made.hidden = on;
+  }
+
+  /** Shows whether the picture follows. */
+  private tell(): void {
+    this.follow.setAttribute("aria-pressed", String(this.actions.view().camera?.following ?? false));
   }
 
   private open(on: boolean): void {

@@ -218,8 +218,8 @@ test("the arm's contacts are marked stronger than those of bodies among themselv
   const second = contactMarks({ ghostLabel: "B", nodes: [{ kind: "link", name: "forearm" }], contacts: [contact("B/shelf", "B/can", 16), contact("B/forearm", "B/can", 0.6)] }, 2);
   assert.deepEqual(second.map(({ lasting }) => lasting), [1, 0.45], "a second run's arm counts as one");
   const all = contactMarks({ nodes: [], contacts: [contact("shelf", "can", 16)] }, 9);
-  assert.deepEqual([5, 10, 20, 30].map((tick) => coverAt(all[0], tick)), [0, 0.45, 0.45, 0.2]);
-  assert.deepEqual([5, 10, 20, 30].map((tick) => coverAt(marks[0], tick)), [0, 1, 1, 0.6]);
+  assert.deepEqual([5, 10, 20, 30].map((tick) => coverAt(all[0], tick)), [0, 0.45, 0.45, 0]);
+  assert.deepEqual([5, 10, 20, 30].map((tick) => coverAt(marks[0], tick)), [0, 1, 1, 0]);
 });
 
 test("what is drawn stands out from the paper, in light and in dark, and the styles have the same colours", () => {
