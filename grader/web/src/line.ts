@@ -132,6 +132,22 @@ export class Line extends Mesh<InstancedBufferGeometry, ShaderMaterial> {
     this.material.uniforms.colour.value.set(colour);
   }
 
+  /** Leaves out the pieces that begin at these steps. */
+  leaveOut(at: (step: number) => boolean): void {
+    const order = this.geometry.getAttribute("order");
+    for (let s = 0; s < order.count; s++) if (at(s)) order.setXY(s, 2 * EVER, 2 * EVER);
+    order.needsUpdate = true;
+  }
+
+  /** Puts a line of two points elsewhere. */
+  between(a: ArrayLike<number>, b: ArrayLike<number>): void {
+    for (const [name, p] of [["from", a], ["to", b]] as const) {
+      const ends = this.geometry.getAttribute(name);
+      ends.setXYZ(0, p[0], p[1], p[2]);
+      ends.needsUpdate = true;
+    }
+  }
+
   /** How far along the points it is drawn. */
   set now(order: number) {
     this.material.uniforms.now.value = order;

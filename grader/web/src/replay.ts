@@ -10,6 +10,7 @@ import { extent, type Extent } from "./extent";
 import { mark } from "./icon";
 import { listen } from "./keys";
 import { lookout } from "./lookout";
+import { left } from "./left";
 import { Address, copy, format, shareable } from "./links";
 import { plots, type Plot } from "./plots";
 import { Readout } from "./readout";
@@ -180,6 +181,7 @@ export class Replay {
     if (data.mainLabel) item("main", `run ${data.mainLabel}`);
     if (data.nodes.some((node) => node.kind === "ghost")) item("ghost", isReference(data) ? "the reference's arm" : `run ${data.ghostLabel}`);
     item("trail", "path of the TCP, thin where it is still to come");
+    if (left(data).length > 0) item("left", "where it was farther from the path than earns all points, with an arrow to the path");
     if (data.reference && data.reference.path.count > 1) item("reference", isReference(data) ? "the reference's path" : `path of run ${data.ghostLabel}`);
     if (data.goals.length) item("goal", data.goals.length > 1 ? "goals" : "goal");
     if (data.paths.length) item("path", "path to follow, and how far off still counts");

@@ -3,6 +3,7 @@
 import {
   AmbientLight,
   BufferGeometry,
+  ConeGeometry,
   Color,
   CylinderGeometry,
   DirectionalLight,
@@ -24,6 +25,7 @@ import type { Frame, Scenery } from "./data";
 import type { Extent } from "./extent";
 import { hidden } from "./ghosts";
 import { Grid } from "./ground";
+import { left, nearest, offAt, type Left } from "./left";
 import { Line } from "./line";
 import { namedFrames } from "./named";
 import { Edges } from "./outline";
@@ -53,6 +55,10 @@ export class RunScene {
   private readonly glasses: Array<{ material: Glass; colour: keyof Theme }> = [];
   private readonly trail: Line;
   private readonly dot: Mesh;
+  /** Where the path to follow was left: what is drawn over the trail, and the arrow back to the path. */
+  private readonly left: readonly Left[];
+  private readonly off: Line[] = [];
+  private arrow: { shaft: Line; head: Mesh } | null = null;
   private readonly referenceDot: Mesh | null = null;
   private readonly axes: Array<{ line: Line; node: number | null }> = [];
   private readonly grid: Grid;
@@ -181,6 +187,22 @@ export class RunScene {
     this.trail = draw(new Line(replay.tcp.values, { width: 3.5 }), "trail", 6);
     lab.add(this.trail);
     this.dot = add(lab, speck, glass("trail", 1), 7);
+    this.left = left(replay);
+    for (const { off } of this.left) {
+      const line = draw(new Line(replay.tcp.values, { width: 6, dash: 0.02 * unit }), "left", 6.5);
+      line.leaveOut((step) => !off[step]);
+      lab.add(line);
+      this.off.push(line);
+    }
+    if (this.left.length > 0) {
+      const shaft = draw(new Line([0, 0, 0, 0, 0, 1], { width: 2.5 }), "left", 7);
+      // it is put where it is at every moment
+      shaft.frustumCulled = false;
+      lab.add(shaft);
+      // its tip in the origin, its foot along -z
+      const cone = new ConeGeometry(0.014 * unit, 0.036 * unit, 14).rotateX(Math.PI / 2).translate(0, 0, -0.018 * unit);
+      this.arrow = { shaft, head: add(lab, cone, glass("left", 1), 7) };
+    }
 
     // round, as its mark on the time line
     const ball = new SphereGeometry(1, 20, 14);
@@ -232,8 +254,10 @@ export class RunScene {
     if (world.there) this.leaveOut(world);
     this.write(this.lab, world.lab, 0);
     this.trail.now = world.progress;
+    for (const line of this.off) line.now = world.progress;
     this.dot.matrix.setPosition(world.tcp[0], world.tcp[1], world.tcp[2]);
     this.dot.matrixWorldNeedsUpdate = true;
+    if (this.arrow) this.point(this.arrow.shaft, this.arrow.head);
     const reference = this.replay.reference;
     if (reference && this.referenceDot) {
       const { values, count } = reference.path;
@@ -262,6 +286,22 @@ export class RunScene {
         this.write(this.axes[i].line, this.spot, 0);
       }
     }
+  }
+
+  /** Points from the TCP to where the path is, while it is off. */
+  private point(shaft: Line, head: Mesh): void {
+    const { world, along, across, beside, spot } = this;
+    const off = offAt(this.left, world.progress);
+    shaft.visible = head.visible = off !== null;
+    if (!off) return;
+    nearest(spot, off.path, world.tcp);
+    shaft.between(world.tcp, spot);
+    along.set(spot[0] - world.tcp[0], spot[1] - world.tcp[1], spot[2] - world.tcp[2]).normalize();
+    across.set(Math.abs(along.z) < 0.9 ? 0 : 1, 0, Math.abs(along.z) < 0.9 ? 1 : 0);
+    beside.crossVectors(along, across).normalize();
+    across.crossVectors(beside, along).normalize();
+    head.matrix.makeBasis(across, beside, along).setPosition(spot[0], spot[1], spot[2]);
+    head.matrixWorldNeedsUpdate = true;
   }
 
   /** Shows of what moves only what is there. */

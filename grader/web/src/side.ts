@@ -9,6 +9,7 @@ import type { Extent } from "./extent";
 import { nextFrame } from "./frames";
 import { hidden } from "./ghosts";
 import { hull } from "./hull";
+import { left, nearest, offAt, type Left } from "./left";
 import { namedFrames } from "./named";
 import { pitchFor } from "./pitch";
 import { place } from "./pose";
@@ -36,6 +37,10 @@ export class Side implements View {
   private readonly marks: Array<{ dot: SVGElement; mark: ContactMark }> = [];
   private readonly past: SVGPolylineElement;
   private readonly dot: SVGCircleElement;
+  /** Where the path to follow was left, drawn over the trail, and the arrow back to the path. */
+  private readonly left: readonly Left[];
+  private readonly off = drawing("path", { class: "side-left" });
+  private readonly arrow = drawing("path", { class: "side-arrow" });
   private readonly frames: Array<{ frame: Frame; group: SVGGElement; axes: Array<{ line: SVGLineElement; letter: SVGTextElement }>; name: SVGTextElement }> = [];
   private readonly tip = new Float64Array(3);
   private readonly labFixed: boolean;
@@ -99,6 +104,7 @@ export class Side implements View {
     }
     this.past = drawing("polyline", { class: "side-trail" });
     this.dot = drawing("circle", { class: "side-tcp", r: String(0.012 * this.unit) });
+    this.left = left(replay);
     this.drawLab();
     for (const mark of contactMarks(replay, MOST_CONTACTS)) {
       const [x, y] = this.flat(mark.point);
@@ -176,7 +182,7 @@ export class Side implements View {
     if (replay.reference) still.append(drawing("polyline", { class: "side-reference", points: this.points(replay.reference.path.values).join(" ") }));
     this.trail.length = 0;
     this.trail.push(...this.points(replay.tcp.values));
-    still.append(drawing("polyline", { class: "side-future", points: this.trail.join(" ") }), this.past, this.dot);
+    still.append(drawing("polyline", { class: "side-future", points: this.trail.join(" ") }), this.past, this.off, this.arrow, this.dot);
   }
 
   invalidate(): void {
@@ -212,11 +218,29 @@ export class Side implements View {
     this.past.setAttribute("points", this.trail.slice(0, Math.floor(world.progress) + 1).join(" ") + ` ${x.toFixed(5)},${y.toFixed(5)}`);
     this.dot.setAttribute("cx", x.toFixed(5));
     this.dot.setAttribute("cy", y.toFixed(5));
+    if (this.left.length > 0) this.drawLeft(x, y);
     const tick = world.t / this.replay.stepS;
     for (const { dot, mark } of this.marks) dot.style.opacity = String(coverAt(mark, tick));
     if (this.framesShown) for (const one of this.frames) this.drawFrame(one);
     this.drawnOver?.(this.project);
   };
+
+  /** The trail where the path was left, and while it is, an arrow from the TCP to the path. */
+  private drawLeft(x: number, y: number): void {
+    const { world, trail, spot, unit } = this;
+    let d = "";
+    const last = Math.floor(world.progress);
+    for (const { off } of this.left) for (let k = 0; k < last; k++) if (off[k]) d += `${k > 0 && off[k - 1] ? "L" : `M${trail[k]}L`}${trail[k + 1]}`;
+    this.off.setAttribute("d", d);
+    const now = offAt(this.left, world.progress);
+    this.arrow.style.display = now ? "" : "none";
+    if (!now) return;
+    nearest(spot, now.path, world.tcp);
+    const [tx, ty] = this.fromLab([spot[0], spot[1], spot[2]]);
+    const way = Math.atan2(ty - y, tx - x);
+    const barbs = [2.7, -2.7].map((turn) => `M${tx} ${ty}L${tx + 0.035 * unit * Math.cos(way + turn)} ${ty + 0.035 * unit * Math.sin(way + turn)}`);
+    this.arrow.setAttribute("d", `M${x} ${y}L${tx} ${ty}${barbs.join("")}`);
+  }
 
   private readonly project: Project = (out, p) => {
     const { clientWidth, clientHeight } = this.element;

@@ -11,6 +11,8 @@ export interface Theme {
   readonly free: string;
   readonly ghost: string;
   readonly trail: string;
+  /** The trail where the path to follow was left. */
+  readonly left: string;
   /** The trail where it is still to come. */
   readonly future: string;
   readonly reference: string;
@@ -34,6 +36,7 @@ export const LIGHT: Theme = {
   free: "#e0b040",
   ghost: "#9e4a80",
   trail: "#006cae",
+  left: "#be1e2d",
   future: "#4a90c2",
   reference: "#9e4a80",
   goal: "#007e5c",
@@ -55,6 +58,7 @@ export const DARK: Theme = {
   free: "#d2a338",
   ghost: "#e69cc8",
   trail: "#62b8f0",
+  left: "#ff787d",
   future: "#487a9b",
   reference: "#e69cc8",
   goal: "#38c89c",
