@@ -168,6 +168,8 @@ export class Plot {
       this.byKeys();
     }
     this.follow();
+    // what is hatched has words below the plot, which must not come later and move the page
+    if (this.timePanels().some(({ full, zero }) => full !== undefined && zero !== undefined)) this.read();
   }
 
   /** Arrows seek, and the values at the cursor stand beside it and are said. */
