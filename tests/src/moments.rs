@@ -98,10 +98,13 @@ fn a_loss_is_marked_where_the_band_was_left() {
         "{board}"
     );
     let seek = format!(
-        "The first points were lost at <a class=\"seek\" href=\"{}\">",
+        "Points were lost at <a class=\"seek\" href=\"{}\">",
         link.replace('&', "&amp;")
     );
-    assert!(html::html(&graded, &[]).contains(&seek), "the page");
+    assert!(
+        html::html(&graded, &[], &html::PageExtras::default()).contains(&seek),
+        "the page"
+    );
     // and the reported points add up
     let parts: f64 = knock.checks.iter().map(|check| check.points).sum();
     assert!(
@@ -168,7 +171,7 @@ fn a_stop_leads_to_the_last_tick_there_is() {
         output.contains("(at 3.01 s, tick 3010) #task=move&t=3.009"),
         "{output}"
     );
-    let page = html::html(&late, &[]);
+    let page = html::html(&late, &[], &html::PageExtras::default());
     assert!(page.contains("<a class=\"seek\" href=\"#task=move&amp;t=3.009\">3.01 s</a>"));
     let ticks = late
         .runs
@@ -188,7 +191,7 @@ fn a_stop_leads_to_the_last_tick_there_is() {
     let loss = first_loss_of(task(&at_once, "move")).expect("a loss");
     assert_eq!(loss.fragment(), "#task=move");
     // which is there without a script, too
-    assert!(html::html(&at_once, &[]).contains("id=\"task=move\""));
+    assert!(html::html(&at_once, &[], &html::PageExtras::default()).contains("id=\"task=move\""));
 }
 
 #[test]
@@ -255,7 +258,7 @@ fn what_stands_from_the_start_is_no_news() {
         events.iter().any(|event| event["kind"] == "contact"),
         "the arm's is"
     );
-    let page = html::html(&graded, &[]);
+    let page = html::html(&graded, &[], &html::PageExtras::default());
     assert!(page.contains("Before anything moved: "));
     // the first row of the table of contacts is the arm's
     let contacts = page

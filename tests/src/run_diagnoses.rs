@@ -337,7 +337,7 @@ fn students_see_where_their_path_differs() {
     let differs = &moving.expect("a task")["divergence"];
     assert_eq!(differs["signal"], "tcp", "{record}");
     let report = std::fs::read_to_string(bed.path("out/report.html")).expect("report");
-    assert!(report.contains("Where it first differs"));
+    assert!(report.contains("Compared with the reference solution"));
     assert!(report.contains("differs first from the reference"));
     let verified = bed.run(&["verify", "out"]);
     assert_eq!(verified.code, Some(0), "{verified:?}");

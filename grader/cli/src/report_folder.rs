@@ -40,7 +40,7 @@ pub(crate) fn write(
     lab: &Lab,
     submission: &SubmissionSource,
     graded: &GradedRun,
-    request: ReportRequest,
+    request: &ReportRequest,
 ) -> Result<(), Failure> {
     let kept = refuse_foreign(out)?;
     let copy = copy_name(submission);
@@ -120,7 +120,7 @@ pub(crate) fn files(
     lab: &Lab,
     (copy, submission): (&str, &SubmissionSource),
     graded: &GradedRun,
-    request: ReportRequest,
+    request: &ReportRequest,
     pixels: Pixels,
 ) -> Result<Vec<OutFile>, Failure> {
     let copies = lab.graded_copies();
@@ -147,7 +147,7 @@ pub(crate) fn files(
         own_robots: &own_robots,
         lab_files: &lab_files,
     };
-    let material = Material::new(graded, sources, &request, pixels).map_err(fault)?;
+    let material = Material::new(graded, sources, request, pixels).map_err(fault)?;
     output::files(&material).map_err(fault)
 }
 
@@ -270,7 +270,7 @@ fn sources(folder: &Path, manifest: &Manifest) -> Vec<SourceFile> {
 }
 
 /// Reads a grade record, if it is of the format that this version writes.
-fn record(folder: &Path) -> Result<Grade, Failure> {
+pub(crate) fn record(folder: &Path) -> Result<Grade, Failure> {
     #[derive(serde::Deserialize)]
     struct Format {
         format: String,

@@ -2,6 +2,7 @@
 
 use kinemark_grader::judge::Interrupted;
 use kinemark_grader::record::verdict::Verdict;
+use kinemark_grader::submission::handed_in::Program;
 use kinemark_grader::submission::host::Host;
 use kinemark_grader::task::files::Files;
 use kinemark_grader::task::problem::LoadError;
@@ -90,7 +91,9 @@ pub fn grade(
     }
     if pages {
         // before the record: a record that is there has its page
-        book.put_page(&key, &graded)?;
+        let is_script = matches!(source.program(), Program::Script(_));
+        let script = is_script.then_some(submission.bytes.as_slice());
+        book.put_page(&key, &graded, script)?;
         book.put_page_sources(&graded.grade.lab.name, &key, &submission.sources)?;
     }
     let record = Record::new(inputs, graded.grade);

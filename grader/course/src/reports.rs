@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use kinemark_grader::record::graded::GradedRun;
-use kinemark_report::html::{ViewerCode, html_with, whole};
+use kinemark_report::html::{PageExtras, ViewerCode, html_with, whole};
 use kinemark_report::plot::plots;
 
 use crate::book::{Book, BookError};
@@ -51,13 +51,23 @@ impl Book {
         self.root().join(path)
     }
 
-    /// Writes the page of a graded run whose record has the key `key`.
+    /// Writes the page of a graded run whose record has the key `key`; `script` is the submission where it is one.
     ///
     /// # Errors
     /// A full disk.
-    pub fn put_page(&self, key: &str, graded: &GradedRun) -> Result<(), BookError> {
+    pub fn put_page(
+        &self,
+        key: &str,
+        graded: &GradedRun,
+        script: Option<&[u8]>,
+    ) -> Result<(), BookError> {
         let drawn: Vec<_> = graded.runs.iter().map(plots).collect();
-        let page = html_with(graded, &drawn, ViewerCode::Beside(&address()));
+        // the sources of a module lie beside the page
+        let extras = PageExtras {
+            script,
+            ..PageExtras::default()
+        };
+        let page = html_with(graded, &drawn, &extras, ViewerCode::Beside(&address()));
         let viewer = self.in_root(REPORTS).join(viewer_file());
         let path = self.in_root(&page_path(&graded.grade.lab.name, key));
         for (path, bytes) in [(viewer, ViewerCode::text()), (path, page.as_str())] {
@@ -130,11 +140,14 @@ mod tests {
         let lab = graded.grade.lab.name.clone();
         let (one, other) = ("00112233445566778899aabbccddeeff", "ff");
         assert_eq!(book.whole_page(&lab, one).unwrap(), None);
-        book.put_page(one, &graded).unwrap();
-        book.put_page(other, &graded).unwrap();
+        book.put_page(one, &graded, None).unwrap();
+        book.put_page(other, &graded, None).unwrap();
         let page = book.whole_page(&lab, one).unwrap().unwrap();
         let drawn: Vec<_> = graded.runs.iter().map(plots).collect();
-        assert_eq!(page, kinemark_report::html::html(&graded, &drawn));
+        assert_eq!(
+            page,
+            kinemark_report::html::html(&graded, &drawn, &PageExtras::default())
+        );
         let beside = std::fs::read_to_string(bed.path().join(page_path(&lab, one))).unwrap();
         assert_eq!(with_viewer(&beside), page);
         let of_another = beside.replace(&viewer_file(), "viewer-0123456789ab.js");

@@ -7,7 +7,13 @@ use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::record::sample;
 use kinemark_report::log::{Attachment, mcap};
 use kinemark_report::output::LogRequest;
-use kinemark_report::{html::html, plot::plots, png::png, replay::Replay, storyboard::storyboard};
+use kinemark_report::{
+    html::{PageExtras, html},
+    plot::plots,
+    png::png,
+    replay::Replay,
+    storyboard::storyboard,
+};
 
 fn report(criterion: &mut Criterion) {
     let mut graded = sample::graded();
@@ -27,7 +33,7 @@ fn report(criterion: &mut Criterion) {
     });
     let drawn = vec![plots(run)];
     criterion.bench_function("page", |bencher| {
-        bencher.iter(|| html(black_box(&graded), &drawn))
+        bencher.iter(|| html(black_box(&graded), &drawn, &PageExtras::default()))
     });
     // the first picture reads the font
     criterion.bench_function("png", |bencher| {
@@ -56,7 +62,7 @@ fn report(criterion: &mut Criterion) {
     criterion.bench_function("plots, page and log of a run", |bencher| {
         bencher.iter(|| {
             let drawn = vec![plots(black_box(run))];
-            let page = html(&graded, &drawn);
+            let page = html(&graded, &drawn, &PageExtras::default());
             (
                 page,
                 mcap(run, &graded.grade, &attachments, LogRequest::default()),

@@ -26,6 +26,16 @@ pub(crate) fn is_missing_function(task: &TaskGrade) -> bool {
     task.verdict == Verdict::Missed && task.stopped.as_ref().is_some_and(is_of_no_call)
 }
 
+/// Whether nothing of a task was run, because of the submission: its function is missing, or the file is no program.
+pub(crate) fn is_never_run(task: &TaskGrade) -> bool {
+    let is_of_no_call = |stopped: &Stopped| stopped.case.is_none() && stopped.tick.is_none();
+    let is_of_submission = matches!(
+        task.verdict,
+        Verdict::Missed | Verdict::DidNotBuild | Verdict::OverBudget
+    );
+    is_of_submission && task.stopped.as_ref().is_some_and(is_of_no_call)
+}
+
 /// What stopped it, with the line where that is known: `a bracket is missing (line 3: "}")`.
 pub(crate) fn message_with_line(stopped: &Stopped) -> String {
     let message = shortened(&stopped.message, MOST_CHARACTERS);

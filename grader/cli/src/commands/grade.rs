@@ -14,10 +14,13 @@ use kinemark_grader::submission::host::{Host, InProcess};
 use kinemark_grader::submission::not_text::absent;
 use kinemark_grader::task::files::Files;
 
+use kinemark_report::html::Earlier;
 use kinemark_report::output::{
-    Encoding, LogRequest, MOST_SIGNAL_RATE_HZ, PAGE_FILE, ReportRequest, STORYBOARD_FILE,
+    Encoding, LogRequest, MOST_SIGNAL_RATE_HZ, PAGE_FILE, RECORD_FILE, ReportRequest,
+    STORYBOARD_FILE,
 };
 use kinemark_report::short_text::short_text;
+use kinemark_report::visible::visible;
 use serde::Serialize;
 
 use crate::chosen_variant::{self, LabArgs};
@@ -40,6 +43,7 @@ use crate::{
     kinemark grade 01-kinematics submission.rhai --out feedback --json\n  \
     kinemark grade 01-kinematics submission.rhai --png --storyboard\n  \
     kinemark grade 01-kinematics submission.rhai --variants 5\n  \
+    kinemark grade --since out --out better\n  \
     kinemark grade --format short\n  \
     kinemark grade --build\n\n\
     In a folder of `kinemark new`, kinemark.toml names the lab. In practice a file variant.toml beside the submission is used unless --variant is given.\n\
@@ -80,6 +84,12 @@ pub(crate) struct Args {
     /// Signals a second in logs; there are no more than physics steps [default: 100]
     #[arg(long, value_name = "HZ", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SIGNAL_RATE_HZ)))]
     pub(crate) log_rate: Option<u32>,
+    /// Whose report it is: a name or an id for the page's head and title. Neither the grade nor its digests have it
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) label: Option<String>,
+    /// An earlier report of the same lab: the page shows which checks earn more and which earn less since then
+    #[arg(long, value_name = "DIR")]
+    pub(crate) since: Option<PathBuf>,
     /// Grade on so many other variants as well, in practice: a number that is typed in shows there
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
     pub(crate) variants: Option<u32>,
@@ -207,6 +217,8 @@ pub(crate) struct Work {
     pub(crate) labs: Option<String>,
     /// The same submission on other variants, where that was asked for.
     variants: Option<PracticeVariants>,
+    /// The earlier report with which this one is compared.
+    since: Option<Earlier>,
 }
 
 /// A grade with those on other variants.
@@ -326,13 +338,15 @@ pub(crate) fn write(request: &Request<'_>, work: &Work) -> Result<(), Failure> {
             },
             rate_hz: args.log_rate,
         },
+        label: args.label.clone(),
+        since: work.since.clone(),
     };
     report_folder::write(
         &request.out,
         &work.lab,
         &work.submission,
         &work.graded,
-        drawn,
+        &drawn,
     )
 }
 
@@ -364,6 +378,8 @@ pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
         note = Some("no variant given: using the default parameters of lab.toml".to_owned());
     }
     report_folder::refuse_foreign(&request.out)?;
+    let since = args.since.as_deref();
+    let since = since.map(|folder| earlier(folder, &lab.name)).transpose()?;
     let submission = submission(request, &lab, staff.is_some())?;
 
     let mut in_process = InProcess;
@@ -404,7 +420,33 @@ pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
         note,
         labs: chosen.labs,
         variants,
+        since,
     })
+}
+
+/// What an earlier report of the lab earned.
+fn earlier(folder: &Path, lab: &str) -> Result<Earlier, Failure> {
+    let shown = output::path(folder);
+    if !folder.join(RECORD_FILE).is_file() {
+        return Err(Failure::usage(
+            format!("`{shown}` is no folder of a report"),
+            "name a folder that `kinemark grade` wrote, or leave --since out",
+        ));
+    }
+    let grade = report_folder::record(folder)?;
+    if grade.lab.name != lab {
+        return Err(Failure::usage(
+            format!(
+                "`{shown}` is a report of lab `{}`, not of `{lab}`",
+                visible(&grade.lab.name)
+            ),
+            "name an earlier report of the same lab, or leave --since out",
+        ));
+    }
+    let name = folder
+        .file_name()
+        .map_or(shown.clone(), |name| name.to_string_lossy().into_owned());
+    Ok(Earlier::of(&name, &grade))
 }
 
 /// The submission, built where that is asked for; a build that fails is a submission that is not there.
@@ -462,10 +504,15 @@ fn refuse_pixels_without_png(args: &Args) -> Result<(), Failure> {
 
 /// Where the storyboards are, a line each.
 fn storyboards(out: &Path, graded: &GradedRun) -> String {
-    if graded.runs.is_empty() {
+    let mut ran = graded
+        .runs
+        .iter()
+        .filter(|run| !run.trace.is_empty())
+        .peekable();
+    if ran.peek().is_none() {
         return "storyboard: none, because no motion task was run\n".to_owned();
     }
-    let lines = graded.runs.iter().map(|run| {
+    let lines = ran.map(|run| {
         let path = out.join(&run.task).join(STORYBOARD_FILE);
         format!("storyboard: {}\n", output::path(&path))
     });

@@ -50,7 +50,7 @@ pub(super) fn compare(
     is_certain: bool,
     findings: &mut Findings,
 ) -> Result<usize, Failure> {
-    let request = report.manifest.request;
+    let request = &report.manifest.request;
     let submission = (report.right_copy(), &report.submission);
     let files = report_folder::files(lab, submission, shown, request, Pixels::Undrawn)?;
     let mut uncertain = Vec::new();
@@ -135,7 +135,7 @@ fn compare_list(report: &Report, findings: &mut Findings) -> Result<(), Failure>
         &digest_there(report, MANIFEST_FILE),
         &now,
     );
-    let request = report.manifest.request;
+    let request = &report.manifest.request;
     if request.reference_overlay && report.grade.mode == GradeMode::Practice {
         let what = format!("`reference_overlay` in `{MANIFEST_FILE}`");
         findings.compare(

@@ -28,10 +28,10 @@ pub(super) fn measure_text(measure: &Measure) -> MeasureText {
     } else {
         ("≥", "≤")
     };
-    let words = if measure.margin() > Some(0.0) {
-        "margin"
-    } else {
-        "short of full points"
+    let words = match measure.margin() > Some(0.0) {
+        true => "margin",
+        false if measure.zero >= measure.full => "more than full points allow",
+        false => "less than full points need",
     };
     MeasureText {
         value: match measure.value {
@@ -78,9 +78,9 @@ pub(super) fn gauge(measure: &Measure) -> Markup {
 /// The outcome as symbol and word.
 pub(super) fn outcome(check: &CheckGrade) -> Markup {
     let (class, word, path) = match check.outcome {
-        Outcome::Full => ("full", "full", "M3.5 8.5 L6.8 11.8 L12.5 4.8"),
-        Outcome::Partial => ("partial", "partial", "M3.5 8 H12.5 M8 3.5 V12.5"),
-        Outcome::None => ("none", "none", "M4 4 L12 12 M12 4 L4 12"),
+        Outcome::Full => ("full", "full points", "M3.5 8.5 L6.8 11.8 L12.5 4.8"),
+        Outcome::Partial => ("partial", "some points", "M3.5 8 H12.5 M8 3.5 V12.5"),
+        Outcome::None => ("none", "no points", "M4 4 L12 12 M12 4 L4 12"),
         Outcome::NotJudged => ("unjudged", "not judged", "M4 8 H12"),
         Outcome::AtHandIn => ("unjudged", "when you hand in", "M4 8 H12"),
     };
@@ -124,7 +124,7 @@ mod tests {
         assert_eq!(text.band, "full ≤ 2.0\u{a0}mm, none ≥ 20.0\u{a0}mm");
         assert_eq!(
             text.margin.as_deref(),
-            Some("2.1\u{a0}mm short of full points")
+            Some("2.1\u{a0}mm more than full points allow")
         );
     }
 
@@ -141,7 +141,7 @@ mod tests {
         assert_eq!(text.value, "2325.872\u{a0}m");
         assert_eq!(
             text.margin.as_deref(),
-            Some("2325.872\u{a0}m short of full points")
+            Some("2325.872\u{a0}m more than full points allow")
         );
     }
 

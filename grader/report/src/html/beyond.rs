@@ -45,14 +45,15 @@ fn figures(grade: &Grade) -> impl Iterator<Item = (&TaskGrade, RunFigures)> {
 }
 
 /// The section after full marks; nothing on other pages. Pictures are for students who practise: a class has too many pages for them.
-pub(super) fn beyond(graded: &GradedRun) -> Markup {
+/// Where the tasks have their `chapters`, those are the pictures.
+pub(super) fn beyond(graded: &GradedRun, has_chapters: bool) -> Markup {
     let grade = &graded.grade;
     if !has_full_marks(grade) || figures(grade).next().is_none() {
         return html! {};
     }
     let drawn = match grade.mode {
-        GradeMode::Practice => graded.runs.last(),
-        GradeMode::Graded => None,
+        GradeMode::Practice if !has_chapters => graded.runs.last(),
+        GradeMode::Practice | GradeMode::Graded => None,
     };
     let task = drawn.and_then(|run| grade.tasks.iter().find(|task| task.name == run.task));
     html! {
@@ -126,7 +127,7 @@ mod tests {
     #[test]
     fn full_marks_show_the_run_and_what_it_took() {
         let graded = passed(GradeMode::Practice);
-        let section = beyond(&graded).into_string();
+        let section = beyond(&graded, false).into_string();
         for part in [
             "Beyond full marks",
             "data:image/svg+xml;base64,",
@@ -144,8 +145,14 @@ mod tests {
     }
 
     #[test]
+    fn chapters_of_the_tasks_are_not_repeated() {
+        let section = beyond(&passed(GradeMode::Practice), true).into_string();
+        assert!(section.contains("Beyond full marks") && !section.contains("data:image"));
+    }
+
+    #[test]
     fn a_class_has_the_figures_without_pictures() {
-        let section = beyond(&passed(GradeMode::Graded)).into_string();
+        let section = beyond(&passed(GradeMode::Graded), false).into_string();
         assert!(section.contains("Beyond full marks"), "{section}");
         assert!(!section.contains("data:image"), "{section}");
     }
@@ -154,7 +161,7 @@ mod tests {
     fn lost_points_show_nothing_of_it() {
         let mut graded = passed(GradeMode::Practice);
         graded.grade.verdict = Verdict::Missed;
-        assert!(beyond(&graded).into_string().is_empty());
+        assert!(beyond(&graded, false).into_string().is_empty());
         assert!(!has_full_marks(&graded.grade));
     }
 }

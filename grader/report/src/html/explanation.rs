@@ -4,7 +4,7 @@
 use maud::{Markup, html};
 
 use super::head::earned;
-use super::{ViewerCode, foreign, page, page_with_notice, prose};
+use super::{PageExtras, ViewerCode, foreign, page, page_with_notice, prose};
 use crate::explain_text::{FOR_STAFF, HOW_RUNS_COUNT, band_of, case_error, scores, value_of};
 use crate::plot::plots;
 use crate::stop_words::{is_missing_function, message_with_line, stop_of_whole_file};
@@ -74,7 +74,13 @@ fn attempt_page(task: &ExplainedTask, attempt: &ExplainedAttempt, code: ViewerCo
             p class="by" { (foreign(&what)) " " (how) " " a href=(OVERVIEW_FILE) { "All hidden cases and runs" } }
         }
     };
-    page_with_notice(&attempt.graded, &drawn, code, &notice)
+    page_with_notice(
+        &attempt.graded,
+        &drawn,
+        &PageExtras::default(),
+        code,
+        &notice,
+    )
 }
 
 fn banner() -> Markup {

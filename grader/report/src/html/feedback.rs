@@ -4,12 +4,13 @@
 use maud::{Markup, html};
 
 use super::head::{anchor, earned, facts, meaning, scores, verdict};
-use super::task::{diagnosed, stopped};
+use super::task::{diagnosed, not_run, stopped};
 use super::task_check::checked;
 use super::task_shown::TaskShown;
 use super::task_tables::hidden;
 use super::viewer::ViewerCode;
 use super::{foreign, page, prose};
+use crate::stop_words::stop_of_whole_file;
 use crate::visible::{shortened, visible};
 use kinemark_grader::record::grade::{CheckGrade, Grade, Outcome, Stopped, TaskGrade};
 use kinemark_grader::record::hints::Hints;
@@ -77,9 +78,11 @@ fn with_detail(shown: &FeedbackPage<'_>, detail: Detail) -> String {
         (head(shown))
         @if let Some(grade) = shown.grade {
             main {
+                @let whole_file = stop_of_whole_file(grade);
+                @if let Some(stop) = whole_file { (not_run(&cut_stop(stop), None)) }
                 @if !matches!(detail, Detail::Total) { (scores(grade)) }
                 @if let Detail::Facts(most) = detail {
-                    @for (i, task) in grade.tasks.iter().enumerate() { (task_section(i, task, shown.hints, most)) }
+                    @for (i, task) in grade.tasks.iter().enumerate().filter(|_| whole_file.is_none()) { (task_section(i, task, shown.hints, most)) }
                 }
             }
             @if matches!(detail, Detail::Facts(_)) { (facts(grade)) }
@@ -112,7 +115,7 @@ fn head(shown: &FeedbackPage<'_>) -> Markup {
                     }
                 }
                 @if let Some(grade) = shown.grade {
-                    p { (verdict(grade.verdict)) " " (meaning(grade.verdict, grade.tasks.iter().flat_map(|task| &task.checks))) }
+                    p { (verdict(grade.verdict, grade.points)) " " (meaning(grade.verdict, grade.tasks.iter().flat_map(|task| &task.checks))) }
                 }
             }
             @if !shown.facts.is_empty() {
@@ -133,6 +136,7 @@ fn task_section(index: usize, task: &TaskGrade, hints: &Hints, most: usize) -> M
         has_replay: false,
         stopped: task.stopped.is_some(),
         hints: Some(hints),
+        script: None,
     };
     let lost: Vec<CheckGrade> = task
         .checks
@@ -144,7 +148,7 @@ fn task_section(index: usize, task: &TaskGrade, hints: &Hints, most: usize) -> M
         section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
             div class="title" {
                 h2 id={ (id) "-title" } { (foreign(&task.title)) }
-                p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }
+                p { (verdict(task.verdict, task.points)) " " (earned(task.points, task.max_points)) }
             }
             p class="lead" { (meaning(task.verdict, task.checks.iter())) }
             @if let Some(stop) = &task.stopped { (stopped(&cut_stop(stop), &of)) }

@@ -4,7 +4,9 @@ use maud::{Markup, html};
 
 use super::band::{measure_text, outcome};
 use super::beyond::has_full_marks;
+use super::costs::costs;
 use super::foreign;
+use crate::stop_words::stop_of_whole_file;
 use crate::text::points_at_hand_in;
 use crate::visible::visible;
 use kinemark_grader::record::grade::{CheckGrade, Grade, GradeMode, Outcome, Part, TaskGrade};
@@ -30,32 +32,53 @@ pub(super) fn meaning<'a>(
             "The submission returned something of the wrong shape, or a number that is not finite."
         }
         Verdict::Missed => {
-            let (mut lost, mut all) = (0, 0);
-            for check in checks {
-                if check.outcome == Outcome::AtHandIn {
-                    continue;
-                }
-                lost += usize::from(check.outcome != Outcome::Full);
+            let (mut lost, mut unjudged, mut all) = (0, 0, 0);
+            for check in checks.filter(|check| check.outcome != Outcome::AtHandIn) {
+                let is_unjudged = check.outcome == Outcome::NotJudged;
+                unjudged += usize::from(is_unjudged);
+                lost += usize::from(!is_unjudged && check.outcome != Outcome::Full);
                 all += 1;
             }
-            return format!("{lost} of {all} checks lost points.");
+            return match (lost, unjudged) {
+                (lost, 0) => format!("{lost} of {all} checks lost points."),
+                (0, unjudged) => format!("{unjudged} of {all} checks were not judged."),
+                (lost, 1) => format!("{lost} of {all} checks lost points, and 1 was not judged."),
+                (lost, many) => {
+                    format!("{lost} of {all} checks lost points, and {many} were not judged.")
+                }
+            };
         }
         Verdict::Passed => "Every check earned all its points.",
     };
     sentence.to_owned()
 }
 
-/// A verdict as a chip, with a colour that its word does not need.
-pub(super) fn verdict(verdict: Verdict) -> Markup {
+/// A verdict over so many points as a chip, with a colour that its words do not need.
+pub(super) fn verdict(verdict: Verdict, earned: f64) -> Markup {
     let class = match verdict {
         Verdict::Passed => "full",
-        Verdict::Missed => "partial",
+        Verdict::Missed if earned > 0.0 => "partial",
+        Verdict::Missed => "none",
         Verdict::GraderFault | Verdict::HostLimit => "unjudged",
         Verdict::DidNotBuild | Verdict::Crashed | Verdict::OverBudget | Verdict::InvalidOutput => {
             "none"
         }
     };
-    html! { span class={ "pill " (class) } { (verdict.name()) } }
+    html! { span class={ "pill " (class) } { (verdict_words(verdict)) } }
+}
+
+/// A verdict in words; its name in the record is a code.
+pub fn verdict_words(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Passed => "full marks",
+        Verdict::Missed => "points lost",
+        Verdict::InvalidOutput => "invalid answer",
+        Verdict::OverBudget => "over budget",
+        Verdict::Crashed => "crashed",
+        Verdict::DidNotBuild => "does not build",
+        Verdict::HostLimit => "not graded: machine limit",
+        Verdict::GraderFault => "not graded: grader failed",
+    }
 }
 
 /// The anchor of a task's section.
@@ -69,7 +92,8 @@ pub(super) fn earned(earned: f64, of: f64) -> Markup {
 }
 
 /// The head: how it went, at a glance, and where to look first.
-pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
+/// `label` says whose it is.
+pub(super) fn head(grade: &Grade, title: &str, label: Option<&str>, look: &Markup) -> Markup {
     let checks = || grade.tasks.iter().flat_map(|task| &task.checks);
     let share = if grade.max_points > 0.0 {
         (grade.points / grade.max_points).clamp(0.0, 1.0)
@@ -80,8 +104,9 @@ pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
         header class={ "head" @if has_full_marks(grade) { " won" } } {
             p class="eyebrow" { "Kinemark report" }
             h1 { (foreign(title)) }
+            @if let Some(label) = label { p class="whose" { (foreign(label)) } }
             p class="by" {
-                (foreign(&grade.lab.name)) " · robot " (foreign(&grade.robot.name)) " · submission " (foreign(&grade.submission.name))
+                (foreign(&grade.lab.name)) " · robot " (foreign(&grade.robot.name)) " · " (foreign(&grade.submission.name))
                 @if grade.is_without_sources() { " · no sources beside this module" }
             }
             @if let Some(variant) = &grade.variant { p class="by" { (foreign(&variant.words())) } }
@@ -99,7 +124,8 @@ pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
                         rect class="rest" width="100" height="2" {}
                         rect class="part" width=(format!("{:.2}", 100.0 * share)) height="2" {}
                     }
-                    p { (verdict(grade.verdict)) " " (meaning(grade.verdict, checks())) }
+                    p { (verdict(grade.verdict, grade.points)) " " (meaning(grade.verdict, checks())) }
+                    (costs(grade))
                 }
                 (look)
             }
@@ -115,7 +141,7 @@ pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
                     }
                 }
             }
-            @if grade.tasks.len() > 1 {
+            @if grade.tasks.len() > 1 && stop_of_whole_file(grade).is_none() {
                 nav aria-label="Tasks" {
                     ul {
                         @for (i, task) in grade.tasks.iter().enumerate() {
@@ -131,6 +157,7 @@ pub(super) fn head(grade: &Grade, title: &str, look: &Markup) -> Markup {
 /// The table of scores: every task, every check. On a narrow screen its rows are laid out as blocks, which would cost a screen
 /// reader the table; hence the roles.
 pub(super) fn scores(grade: &Grade) -> Markup {
+    let has_sections = stop_of_whole_file(grade).is_none();
     html! {
         section id="scores" aria-labelledby="scores-title" tabindex="-1" {
             h2 id="scores-title" { "Scores" }
@@ -147,7 +174,7 @@ pub(super) fn scores(grade: &Grade) -> Markup {
                     }
                     @for (i, task) in grade.tasks.iter().enumerate() {
                         tbody role="rowgroup" {
-                            (task_row(i, task))
+                            (task_row(i, task, has_sections))
                             @for check in &task.checks { (check_row(check)) }
                         }
                     }
@@ -155,7 +182,7 @@ pub(super) fn scores(grade: &Grade) -> Markup {
                         tr role="row" {
                             th scope="row" role="rowheader" colspan="2" { "All tasks" }
                             td role="cell" class="number" { (earned(grade.points, grade.max_points)) }
-                            td role="cell" { (verdict(grade.verdict)) }
+                            td role="cell" { (verdict(grade.verdict, grade.points)) }
                         }
                     }
                 }
@@ -164,12 +191,16 @@ pub(super) fn scores(grade: &Grade) -> Markup {
     }
 }
 
-fn task_row(index: usize, task: &TaskGrade) -> Markup {
+/// The row of a task; where the page has no section of it, links to the task lead here.
+fn task_row(index: usize, task: &TaskGrade, has_section: bool) -> Markup {
+    let id = (!has_section).then(|| format!("task={}", visible(&task.name)));
     html! {
-        tr class="task" role="row" {
-            th scope="rowgroup" role="rowheader" colspan="2" { a href={ "#" (anchor(index)) } { (foreign(&task.title)) } }
+        tr class="task" role="row" id=[id] {
+            th scope="rowgroup" role="rowheader" colspan="2" {
+                @if has_section { a href={ "#" (anchor(index)) } { (foreign(&task.title)) } } @else { (foreign(&task.title)) }
+            }
             td role="cell" class="number" { (earned(task.points, task.max_points)) }
-            td role="cell" { (verdict(task.verdict)) }
+            td role="cell" { (verdict(task.verdict, task.points)) }
         }
     }
 }

@@ -5,9 +5,8 @@ use maud::{Markup, html};
 
 use super::beyond::{has_full_marks, success};
 use super::head::anchor;
-use super::task::NOT_RUN;
 use super::viewer::seek;
-use super::{foreign, prose};
+use super::{foreign, kept_with_units, prose};
 use crate::moment::{last_before, look_first};
 use crate::stop_words::stop_of_whole_file;
 use kinemark_grader::record::grade::{CheckGrade, Evidence, Grade};
@@ -18,7 +17,9 @@ pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup 
     if has_full_marks(grade) {
         return success(grade, has_replay);
     }
-    let first = look_first(grade).filter(|_| grade.verdict.is_decided());
+    // what kept the whole file from being run stands below the head, alone
+    let is_shown = grade.verdict.is_decided() && stop_of_whole_file(grade).is_none();
+    let first = look_first(grade).filter(|_| is_shown);
     let Some(loss) = first else {
         return html! {};
     };
@@ -28,18 +29,6 @@ pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup 
         .iter()
         .position(|other| std::ptr::eq(other, task));
     let i = i.unwrap_or_default();
-    if let Some(stop) = stop_of_whole_file(grade) {
-        return html! {
-            div class="note bad look" role="region" aria-labelledby="look-title" {
-                h2 id="look-title" { "Look here first" }
-                p {
-                    strong { "Nothing of it could be run" } ": " (prose(&stop.message))
-                    @if let Some(line) = stop.line.filter(|line| !stop.message.contains(&format!("line {line}"))) { " (line " (line) ")" }
-                }
-                p class="go" { a href={ "#" (NOT_RUN) } { "See the line" } }
-            }
-        };
-    }
     // a stop costs everything after it
     let stop = task.stopped.as_ref();
     let at = match stop {
@@ -58,7 +47,7 @@ pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup 
             } @else if let Some(check) = loss.check {
                 p {
                     strong { (foreign(&check.title)) } " lost " (share(check.max_points - check.points, check.max_points))
-                    @if let Some(fact) = earliest_fact(check) { ": " (prose(&fact.message)) } @else { "." }
+                    @if let Some(fact) = earliest_fact(check) { ": " (prose(&kept_with_units(&fact.message))) } @else { "." }
                 }
             }
             @if let Some(diagnosis) = task.diagnoses.first() { p { "It looks like this: " (prose(&diagnosis.says)) } }

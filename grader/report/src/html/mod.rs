@@ -2,12 +2,16 @@
 
 mod band;
 mod beyond;
+mod chapters;
 mod comparison;
+mod costs;
 mod explanation;
 pub mod feedback;
 mod figure;
 mod head;
 mod look;
+mod since;
+mod source;
 mod static_page;
 mod task;
 mod task_check;
@@ -20,7 +24,10 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 pub use self::comparison::comparison;
 pub use self::explanation::{OVERVIEW_FILE, StaffPage, explanation};
 pub use self::figure::still_figure;
+pub use self::head::verdict_words;
 use self::head::{facts, head, scores};
+pub use self::since::{Earlier, EarlierCheck};
+use self::source::{ScriptLines, source};
 pub use self::static_page::{SmallScript, StaticPage};
 pub use self::viewer::{ViewerCode, whole};
 use crate::palette::plot_css;
@@ -31,23 +38,44 @@ use crate::visible::visible;
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::quantity::points;
 
+/// What a page shows besides the grade and its runs.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct PageExtras<'a> {
+    /// The submission, where it is a script.
+    pub script: Option<&'a [u8]>,
+    /// The sources beside a module, by their paths.
+    pub module_sources: &'a [(String, Vec<u8>)],
+    /// Whose it is, in the words of whoever asked for the page.
+    pub label: Option<&'a str>,
+    /// Whether each motion task has its storyboard as chapters.
+    pub chapters: bool,
+    /// An earlier report, with which this one is compared.
+    pub since: Option<&'a Earlier>,
+}
+
 /// The page of a graded run. `plots` holds the plots of each of its runs, in the same order.
 ///
 /// Everything a submission wrote is shown as text, with characters that hide, reorder or steer what is around them written out.
 /// The same grade gives the same bytes.
-pub fn html(graded: &GradedRun, plots: &[Vec<Plot>]) -> String {
-    html_with(graded, plots, ViewerCode::Inside)
+pub fn html(graded: &GradedRun, plots: &[Vec<Plot>], extras: &PageExtras<'_>) -> String {
+    html_with(graded, plots, extras, ViewerCode::Inside)
 }
 
 /// The same page with the viewer's code where `code` says.
-pub fn html_with(graded: &GradedRun, plots: &[Vec<Plot>], code: ViewerCode<'_>) -> String {
-    page_with_notice(graded, plots, code, &html! {})
+pub fn html_with(
+    graded: &GradedRun,
+    plots: &[Vec<Plot>],
+    extras: &PageExtras<'_>,
+    code: ViewerCode<'_>,
+) -> String {
+    page_with_notice(graded, plots, extras, code, &html! {})
 }
 
 /// The page of a graded run, with a notice at its top.
 fn page_with_notice(
     graded: &GradedRun,
     plots: &[Vec<Plot>],
+    extras: &PageExtras<'_>,
     code: ViewerCode<'_>,
     notice: &Markup,
 ) -> String {
@@ -69,27 +97,37 @@ fn page_with_notice(
         })
         .collect();
     let has_replay = |index: usize| replays.iter().any(|(i, _)| *i == index);
+    let label = extras.label.filter(|label| !label.trim().is_empty());
+    let student = grade
+        .variant
+        .as_ref()
+        .and_then(|variant| variant.student.as_deref());
+    let whose = label
+        .or(student)
+        .map_or_else(String::new, |whose| format!("{}, ", visible(whose)));
     let title = format!(
-        "{}: {} of {} points",
+        "{whose}{}: {} of {} points",
         visible(title_of(graded)),
         points(grade.points),
         points(grade.max_points)
     );
     let whole_file = stop_of_whole_file(grade);
+    let script = extras.script.and_then(ScriptLines::of);
+    let script = script.as_ref();
     let body = html! {
         a class="skip" href="#scores" { "Skip to the scores" }
         (notice)
-        (head(grade, title_of(graded), &look::look(grade, has_replay)))
+        (head(grade, title_of(graded), label, &look::look(grade, has_replay)))
         main {
-            @if let Some(stop) = whole_file { (task::not_run(stop)) }
-            (beyond::beyond(graded))
+            @if let Some(stop) = whole_file { (task::not_run(stop, script)) }
+            @if let Some(earlier) = extras.since { (since::since(grade, earlier, whole_file.is_none())) }
+            (beyond::beyond(graded, extras.chapters))
             (scores(grade))
-            @for (i, task) in grade.tasks.iter().enumerate() {
-                @match whole_file {
-                    Some(_) => { (task::section_not_run(i, task)) }
-                    None => { (task::section(i, task, drawn(&task.name), has_replay(i))) }
-                }
+            // of a file that is no program every section would say the same
+            @for (i, task) in grade.tasks.iter().enumerate().filter(|_| whole_file.is_none()) {
+                (task::section(i, task, drawn(&task.name), has_replay(i), script, extras.chapters))
             }
+            (source(grade, script, extras.module_sources))
         }
         (facts(grade))
     };
@@ -142,6 +180,31 @@ pub fn foreign(text: &str) -> Markup {
     html! { bdi { (visible(text)) } }
 }
 
+/// Units that stand after a number.
+const UNITS: [&str; 24] = [
+    "m", "mm", "cm", "km", "s", "ms", "rad", "mrad", "%", "N", "N m", "N s", "J", "W", "Hz", "kg",
+    "g", "m/s", "mm/s", "rad/s", "m/s²", "rad/s²", "°", "°C",
+];
+
+/// Text in which no line breaks between a number, or the bracket of a list of numbers, and its unit.
+fn kept_with_units(text: &str) -> String {
+    let mut kept = String::with_capacity(text.len() + 16);
+    let mut rest = text;
+    while let Some((before, after)) = rest.split_once(' ') {
+        kept.push_str(before);
+        let word = after.split([' ', '\u{a0}']).next().unwrap_or_default();
+        let unit = word.trim_end_matches([',', '.', ';', ':', ')', ']']);
+        let is_number = before.ends_with(|c: char| c.is_ascii_digit() || c == ']');
+        // a product of units is one unit
+        let is_product = kept.ends_with("\u{a0}N") && matches!(unit, "m" | "s");
+        let is_kept = is_number && UNITS.contains(&unit) || is_product;
+        kept.push(if is_kept { '\u{a0}' } else { ' ' });
+        rest = after;
+    }
+    kept.push_str(rest);
+    kept
+}
+
 /// A sentence from outside, with what stands in backticks as code.
 pub fn prose(text: &str) -> Markup {
     let text = visible(text);
@@ -166,7 +229,17 @@ mod tests {
 
     fn page(graded: &GradedRun) -> String {
         let plots: Vec<_> = graded.runs.iter().map(plots).collect();
-        html(graded, &plots)
+        html(graded, &plots, &PageExtras::default())
+    }
+
+    #[test]
+    fn a_number_and_its_unit_stay_on_one_line() {
+        let kept = |text| kept_with_units(text).replace('\u{a0}', "_");
+        assert_eq!(
+            kept("37.2 mm off at [1.4, 0.05] m, 12 N m and 3 of 4 s."),
+            "37.2_mm off at [1.4, 0.05]_m, 12_N_m and 3 of 4_s."
+        );
+        assert_eq!(kept("in 1 metre m s 5"), "in 1 metre m s 5");
     }
 
     #[test]
@@ -186,7 +259,12 @@ mod tests {
         let graded = sample::graded();
         let plots: Vec<_> = graded.runs.iter().map(plots).collect();
         let address = "../../viewer-0123.js";
-        let beside = html_with(&graded, &plots, ViewerCode::Beside(address));
+        let beside = html_with(
+            &graded,
+            &plots,
+            &PageExtras::default(),
+            ViewerCode::Beside(address),
+        );
         assert!(beside.len() + 300_000 < page(&graded).len());
         assert!(beside.contains("<script src=\"../../viewer-0123.js\"></script>"));
         assert_eq!(whole(&beside, address), page(&graded));

@@ -2,10 +2,11 @@
 
 use kinemark_sim::text::number::seconds;
 use maud::{Markup, html};
-use unicode_width::UnicodeWidthStr as _;
 
+use super::chapters::chapters;
 use super::figure::figure;
 use super::head::{anchor, earned, meaning, verdict};
+use super::source::{ScriptLines, pointed, prose_with_lines};
 use super::task_check::checked;
 use super::task_shown::TaskShown;
 use super::task_tables::{cases, contacts, events, hidden, log};
@@ -13,10 +14,11 @@ use super::viewer::place;
 use super::{foreign, prose};
 use crate::moment::{FirstLoss, first_loss_of, last_before};
 use crate::plot::Plot;
+use crate::stop_words::is_never_run;
 use crate::text::{kept_words, unresolved, unresolved_hidden};
 use crate::visible::{file_stem, visible};
 use kinemark_grader::record::grade::{
-    CheckGrade, Diagnosis, Divergence, Outcome, Stopped, TaskGrade, TaskKind,
+    CheckGrade, Diagnosis, Divergence, FurtherMistake, Outcome, Stopped, TaskGrade, TaskKind,
 };
 use kinemark_grader::record::graded::TaskRun;
 use kinemark_grader::record::quantity::with_unit;
@@ -28,6 +30,8 @@ pub(super) fn section(
     task: &TaskGrade,
     run: Option<(&TaskRun, &[Plot])>,
     has_replay: bool,
+    script: Option<&ScriptLines<'_>>,
+    has_chapters: bool,
 ) -> Markup {
     let id = anchor(index);
     let plots = run.map_or(&[][..], |(_, plots)| plots);
@@ -41,18 +45,20 @@ pub(super) fn section(
             .as_ref()
             .is_some_and(|stop| stop.kept.is_none()),
         hints: None,
+        script,
     };
     let passed = task.verdict == Verdict::Passed;
+    if let Some(stop) = task.stopped.as_ref().filter(|_| is_never_run(task)) {
+        return section_never_run(&id, task, stop, &of);
+    }
     html! {
         section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
-            div class="title" id={ "task=" (visible(&task.name)) } {
-                h2 id={ (id) "-title" } { (foreign(&task.title)) }
-                p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }
-            }
+            (title(&id, task))
             p class="lead" { (meaning(task.verdict, task.checks.iter())) }
             @if let Some(loss) = first_loss_of(task) { (first_lost(&loss, &of)) }
             @if let Some(stop) = &task.stopped { (stopped(stop, &of)) }
             @for diagnosis in &task.diagnoses { (diagnosed(diagnosis, task.kind)) }
+            @if let Some((run, _)) = run.filter(|_| has_chapters) { (chapters(index, run, task)) }
             @if has_replay { (place(index, &task.name)) }
             // a task without a mistake is read by who wants to know more
             @if passed {
@@ -64,11 +70,35 @@ pub(super) fn section(
     }
 }
 
+/// The section of a task of which nothing was run, such as one whose function is missing: it says so once.
+fn section_never_run(id: &str, task: &TaskGrade, stop: &Stopped, of: &TaskShown<'_>) -> Markup {
+    html! {
+        section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
+            (title(id, task))
+            (stopped(stop, of))
+            p class="lead" {
+                "Nothing of this task was run, so "
+                @match task.checks.len() { 1 => "its check was not judged.", many => { "none of its " (many) " checks was judged." } }
+            }
+        }
+    }
+}
+
+/// The title of a task's section, with its points; a link to the task leads to it.
+fn title(id: &str, task: &TaskGrade) -> Markup {
+    html! {
+        div class="title" id={ "task=" (visible(&task.name)) } {
+            h2 id={ (id) "-title" } { (foreign(&task.title)) }
+            p { (verdict(task.verdict, task.points)) " " (earned(task.points, task.max_points)) }
+        }
+    }
+}
+
 /// The anchor of what kept the whole file from being run.
-pub(super) const NOT_RUN: &str = "not-run";
+const NOT_RUN: &str = "not-run";
 
 /// What kept the whole file from being run: said once, for all tasks.
-pub(super) fn not_run(stop: &Stopped) -> Markup {
+pub(super) fn not_run(stop: &Stopped, script: Option<&ScriptLines<'_>>) -> Markup {
     let of = TaskShown {
         name: "",
         kind: TaskKind::Function,
@@ -76,25 +106,13 @@ pub(super) fn not_run(stop: &Stopped) -> Markup {
         has_replay: false,
         stopped: true,
         hints: None,
+        script,
     };
     html! {
         section class="task" id=(NOT_RUN) aria-labelledby={ (NOT_RUN) "-title" } {
             h2 id={ (NOT_RUN) "-title" } { "Nothing of it could be run" }
             (stopped(stop, &of))
-        }
-    }
-}
-
-/// The section of a task of a file that could not be run.
-pub(super) fn section_not_run(index: usize, task: &TaskGrade) -> Markup {
-    let id = anchor(index);
-    html! {
-        section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
-            div class="title" id={ "task=" (visible(&task.name)) } {
-                h2 id={ (id) "-title" } { (foreign(&task.title)) }
-                p { (verdict(task.verdict)) " " (earned(task.points, task.max_points)) }
-            }
-            p class="lead" { "Not run: " a href={ "#" (NOT_RUN) } { "what stopped the file" } "." }
+            p class="lead" { "No check was judged. Fix this first; then the report shows every task." }
         }
     }
 }
@@ -175,7 +193,7 @@ fn details_of(id: &str, task: &TaskGrade, plots: &[Plot], of: &TaskShown<'_>) ->
 fn first_lost(loss: &FirstLoss<'_>, of: &TaskShown<'_>) -> Markup {
     html! {
         @if let (Some(at), Some(check)) = (loss.at, loss.check) {
-            p class="quiet" { "The first points were lost at " (of.moment(at.time_s, &seconds(at.time_s))) ": " (foreign(&check.title)) "." }
+            p class="quiet" { "Points were lost at " (of.moment(at.time_s, &seconds(at.time_s))) ", " (foreign(&check.title)) "." }
         }
     }
 }
@@ -185,10 +203,10 @@ pub(super) fn stopped(stop: &Stopped, of: &TaskShown<'_>) -> Markup {
     html! {
         div class="note bad" {
             h3 { "What stopped it" }
-            p { (prose(&stop.message)) }
+            p { (prose_with_lines(&stop.message, of.script)) }
             p class="where" {
                 @if let Some(line) = stop.line {
-                    span { "line " (line) @if let Some(column) = stop.column { ", column " (column) } }
+                    span { (of.line(line)) @if let Some(column) = stop.column { ", column " (column) } }
                 }
                 @if let Some(t_s) = stop.time_s {
                     // what is shown ends with the tick before
@@ -197,31 +215,22 @@ pub(super) fn stopped(stop: &Stopped, of: &TaskShown<'_>) -> Markup {
                 @if let Some(tick) = stop.tick { span { "tick " (tick) } }
                 @if let Some(case) = &stop.case { span { "case " (foreign(case)) } }
             }
-            @if let Some(line) = &stop.source_line { (pointed(line, stop.line, stop.column_in_source_line())) }
+            (pointed(stop, of.script))
             @if let Some(kept) = stop.kept { p { (kept_words(stop, kept)) } }
-            @if let Some(help) = &stop.help { p class="next" { strong { "Next: " } (prose(help)) } }
+            @if let Some(help) = &stop.help { p class="next" { strong { "Next: " } (prose_with_lines(help, of.script)) } }
             @if !stop.further.is_empty() {
                 p { "Also:" }
-                ul { @for further in &stop.further { li { (prose(&further.words())) } } }
+                ul { @for further in &stop.further { li { (also(further, of)) } } }
             }
         }
     }
 }
 
-/// A line of the submission with a caret under the column. What is written out in the line moves the caret along with it.
-fn pointed(line: &str, number: Option<usize>, column: Option<usize>) -> Markup {
-    let before: String = line
-        .chars()
-        .take(column.unwrap_or(1).saturating_sub(1))
-        .collect();
-    let number = number.map(|number| number.to_string()).unwrap_or_default();
-    let gutter = " ".repeat(number.len());
-    let spaces = " ".repeat(visible(&before).width());
+/// What else is wrong, with its lines.
+fn also(further: &FurtherMistake, of: &TaskShown<'_>) -> Markup {
     html! {
-        pre class="code" tabindex="0" {
-            span class="gutter" { (number) " │ " } code { (visible(line)) }
-            @if column.is_some() { "\n" span class="gutter" aria-hidden="true" { (gutter) " │ " } span class="caret" aria-hidden="true" { (spaces) "^" } }
-        }
+        @for (i, line) in further.lines.iter().enumerate() { @if i > 0 { ", " } (of.line(*line)) }
+        ": " (prose_with_lines(&further.help, of.script))
     }
 }
 
@@ -245,8 +254,8 @@ pub(super) fn diagnosed(diagnosis: &Diagnosis, kind: TaskKind) -> Markup {
 fn differing(differs: &Divergence, of: &TaskShown<'_>) -> Markup {
     html! {
         div class="note hint" {
-            h3 { "Where it first differs" }
-            p { (prose(&differs.message)) }
+            h3 { "Compared with the reference solution" }
+            p { "It differs from here on: " (prose(&differs.message)) }
             p class="where" {
                 span { "at " (of.moment(differs.time_s, &seconds(differs.time_s))) }
                 span { "tick " (differs.tick) }

@@ -4,10 +4,11 @@ use kinemark_sim::text::number::seconds;
 use maud::{Markup, html};
 
 use super::band::{gauge, measure_text, outcome};
+use super::costs::check_anchor;
 use super::figure::figure;
 use super::head::earned;
 use super::task_shown::TaskShown;
-use super::{foreign, prose};
+use super::{foreign, kept_with_units, prose};
 use crate::plot::Plot;
 use crate::text::loss_without_evidence;
 use crate::visible::visible;
@@ -31,7 +32,7 @@ pub(super) fn checked(
     let hides = shown.len() < check.evidence.len();
     let has_shown = !shown.is_empty();
     html! {
-        article class=(if plot.is_some() { "check pictured" } else { "check" }) {
+        article id=(check_anchor(id, check)) class=(if plot.is_some() { "check pictured" } else { "check" }) {
             div class="title" {
                 h4 { (foreign(&check.title)) }
                 p { (outcome(check)) " " (earned(check.points, check.max_points)) }
@@ -94,15 +95,15 @@ pub(super) fn is_of_hidden_run(fact: &Evidence) -> bool {
 
 fn evidence(fact: &Evidence, of: &TaskShown<'_>) -> Markup {
     html! {
-        p { (prose(&fact.message)) }
+        p { (prose(&kept_with_units(&fact.message))) }
         p class="where" {
             @if let Some(t_s) = fact.time_s { span { "at " (of.moment(t_s, &seconds(t_s))) } }
             @if let Some(tick) = fact.tick { span { "tick " (tick) } }
             @if let Some(run) = &fact.run { span { "run " (foreign(run)) } }
             @if let Some(case) = &fact.case { span { "case " (foreign(case)) } }
-            @if !fact.signal.is_empty() { span { "signal " code { (foreign(&fact.signal)) } } }
-            @if let Some(value) = fact.value { span { "value " (visible(&with_unit(value, &fact.unit))) } }
-            @if let Some(limit) = fact.limit { span { "limit " (visible(&with_unit(limit, &fact.unit))) } }
+            @if fact.tick.is_some() && !fact.signal.is_empty() { span { "signal " code { (foreign(&fact.signal)) } } }
+            @if let Some(value) = fact.value { span { "value " (kept_with_units(&visible(&with_unit(value, &fact.unit)))) } }
+            @if let Some(limit) = fact.limit { span { "limit " (kept_with_units(&visible(&with_unit(limit, &fact.unit)))) } }
         }
     }
 }

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::source::ScriptLines;
 use super::viewer::seek;
 use kinemark_grader::record::grade::TaskKind;
 use kinemark_grader::record::graded::TaskRun;
@@ -17,6 +18,8 @@ pub(super) struct TaskShown<'a> {
     pub(super) stopped: bool,
     /// The hints that the course staff release; without them the page names the command that unfolds them.
     pub(super) hints: Option<&'a Hints>,
+    /// The submission, where the page shows it.
+    pub(super) script: Option<&'a ScriptLines<'a>>,
 }
 
 impl TaskShown<'_> {
@@ -26,6 +29,15 @@ impl TaskShown<'_> {
             seek(self.name, time_s, words)
         } else {
             html! { (words) }
+        }
+    }
+
+    /// A line of the submission, which leads there where the page shows it.
+    pub(super) fn line(&self, number: usize) -> Markup {
+        let words = format!("line {number}");
+        match self.script {
+            Some(script) => script.link(number, &words),
+            None => html! { (words) },
         }
     }
 

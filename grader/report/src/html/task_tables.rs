@@ -77,7 +77,6 @@ pub(super) fn hidden(id: &str, task: &TaskGrade) -> Markup {
                     tr {
                         th scope="col" { "Class" }
                         th scope="col" class="number" { "Good" }
-                        th scope="col" class="number" { "Of" }
                         @if shows_losses { th scope="col" { "Points lost by" } }
                     }
                 }
@@ -85,8 +84,7 @@ pub(super) fn hidden(id: &str, task: &TaskGrade) -> Markup {
                     @for class in &task.hidden {
                         tr {
                             th scope="row" { (foreign(&class.class)) }
-                            td class="number" { (class.good) }
-                            td class="number" { (class.total) }
+                            td class="number" { (class.good) " of " (class.total) }
                             @if shows_losses { td { (foreign(&lost_in(class).join("; "))) } }
                         }
                     }
@@ -115,6 +113,19 @@ pub(super) fn events(events: &[EventRecord], of: &TaskShown<'_>) -> Markup {
         resting.any(|(tick, words)| *tick == event.tick && *words == event.message)
     };
     let (resting, news): (Vec<_>, Vec<_>) = events.iter().partition(rests);
+    let before = html! {
+        @if !resting.is_empty() {
+            p class="quiet" {
+                "Before anything moved: "
+                @for (i, event) in resting.iter().enumerate() { @if i > 0 { "; " } (prose(&event.message)) }
+                "."
+            }
+        }
+    };
+    // there is nothing to unfold
+    if news.is_empty() {
+        return before;
+    }
     html! {
         details class="log" {
             summary { "What happened: " (news.len()) @if news.len() == 1 { " event" } @else { " events" } }
@@ -132,13 +143,7 @@ pub(super) fn events(events: &[EventRecord], of: &TaskShown<'_>) -> Markup {
                     }
                 }
             }
-            @if !resting.is_empty() {
-                p class="quiet" {
-                    "Before anything moved: "
-                    @for (i, event) in resting.iter().enumerate() { @if i > 0 { "; " } (prose(&event.message)) }
-                    "."
-                }
-            }
+            (before)
         }
     }
 }

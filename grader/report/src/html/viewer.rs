@@ -110,7 +110,12 @@ pub fn whole(page: &str, address: &str) -> String {
 
 /// Words that lead to a moment of a task's replay.
 pub(crate) fn seek(task: &str, time_s: f64, words: &str) -> Markup {
-    html! { a class="seek" href=(fragment(task, time_s)) { (words) } }
+    seek_with(task, time_s, &html! { (words) })
+}
+
+/// Anything that leads to a moment of a task's replay.
+pub(crate) fn seek_with(task: &str, time_s: f64, shown: &Markup) -> Markup {
+    html! { a class="seek" href=(fragment(task, time_s)) { (shown) } }
 }
 
 #[cfg(test)]

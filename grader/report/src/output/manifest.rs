@@ -6,6 +6,7 @@ use std::io::Read;
 use serde::{Deserialize, Serialize};
 
 use super::{LogRequest, OutFile};
+use crate::html::Earlier;
 
 /// Its name in the folder.
 pub const FILE: &str = "report.json";
@@ -13,7 +14,7 @@ pub const FILE: &str = "report.json";
 const FORMAT: &str = "kinemark-report/1";
 
 /// What a report shows besides the grade, its plots and its logs.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ReportRequest {
     /// The reference solution's motion beside each run.
@@ -25,6 +26,12 @@ pub struct ReportRequest {
     /// How the log of each motion task is written.
     #[serde(default)]
     pub log: LogRequest,
+    /// Whose report it is, in the words of whoever asked for it: it is on the page, and no digest of the grade has it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub label: Option<String>,
+    /// The earlier report with which the page compares this one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub since: Option<Earlier>,
 }
 
 /// What `report.json` holds.
@@ -54,7 +61,7 @@ pub enum ManifestError {
 
 impl Manifest {
     /// Lists the files of a report.
-    pub fn of(request: ReportRequest, files: &[OutFile]) -> Self {
+    pub fn of(request: &ReportRequest, files: &[OutFile]) -> Self {
         let digests = |is_pixels: bool| {
             let files = files.iter().filter(|file| file.is_pixels == is_pixels);
             files
@@ -63,7 +70,7 @@ impl Manifest {
         };
         Self {
             format: FORMAT.to_owned(),
-            request,
+            request: request.clone(),
             files: digests(false),
             pixels: digests(true),
         }
@@ -126,7 +133,7 @@ mod tests {
             OutFile::new("move/run.mcap", "log"),
             OutFile::pixels("plots/move-path.png", b"png".to_vec()),
         ];
-        Manifest::of(ReportRequest::default(), &files)
+        Manifest::of(&ReportRequest::default(), &files)
     }
 
     #[test]
@@ -139,6 +146,15 @@ mod tests {
         assert!(error.to_string().contains("kinemark-report/2"), "{error}");
         let other = text.replace("\"png\"", "\"gif\"");
         assert!(Manifest::parse(other.as_bytes()).is_err());
+    }
+
+    #[test]
+    fn a_label_is_kept_and_without_one_nothing_is_said_of_it() {
+        let plain = super::super::json(&manifest()).unwrap();
+        assert!(!plain.contains("label"), "{plain}");
+        let labelled = plain.replace("\"png\"", "\"label\": \"Ana B.\", \"png\"");
+        let read = Manifest::parse(labelled.as_bytes()).unwrap();
+        assert_eq!(read.request.label.as_deref(), Some("Ana B."));
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! The storyboard of each motion task that ran, as SVG and PNG.
+//! The storyboard of each motion task that ran, as SVG and PNG; an arm that never moved has none.
 
 use super::material::{Material, OutFile, OutputError};
 use super::table::Output;
@@ -17,8 +17,9 @@ pub(super) const OUTPUT: Output = Output {
 
 fn files(material: &Material<'_>) -> Result<Vec<OutFile>, OutputError> {
     let mut files = Vec::new();
-    for run in &material.graded.runs {
-        let mut tasks = material.graded.grade.tasks.iter();
+    let graded = material.graded;
+    for run in graded.runs.iter().filter(|run| !run.trace.is_empty()) {
+        let mut tasks = graded.grade.tasks.iter();
         let Some(task) = tasks.find(|task| task.name == run.task) else {
             continue;
         };

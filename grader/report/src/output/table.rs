@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::material::{Material, OutFile, OutputError, Sources};
 use super::{ReportRequest, storyboards};
+use crate::html::{PageExtras, html};
 use crate::visible::visible_json;
 
 /// The grade record; a folder that has it claims to be a report.
@@ -45,7 +46,16 @@ pub const OUTPUTS: &[Output] = &[
         name: "page",
         is_requested: always,
         files: |material| {
-            let page = crate::html::html(material.graded, material.plots());
+            let sources = &material.sources;
+            let is_script = sources.submission_file == SUBMISSION_FILE;
+            let extras = PageExtras {
+                script: is_script.then_some(sources.submission),
+                module_sources: sources.module_sources,
+                label: material.request.label.as_deref(),
+                chapters: material.request.storyboard,
+                since: material.request.since.as_ref(),
+            };
+            let page = html(material.graded, material.plots(), &extras);
             Ok(vec![OutFile::new(PAGE_FILE, page)])
         },
     },
@@ -140,7 +150,6 @@ pub fn json(value: &impl Serialize) -> Result<String, OutputError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::LogRequest;
     use super::super::material::Pixels;
     use super::*;
     use kinemark_grader::record::sample;
@@ -169,10 +178,9 @@ mod tests {
         assert!(!plain.iter().any(|path| path.ends_with(".png")));
         assert!(!plain.iter().any(|path| path.contains("storyboard")));
         let all = paths(&ReportRequest {
-            reference_overlay: false,
             png: true,
             storyboard: true,
-            log: LogRequest::default(),
+            ..ReportRequest::default()
         });
         assert!(plain.iter().all(|path| all.contains(path)));
         let mut once = all.clone();

@@ -6,7 +6,7 @@ use super::camera::Camera;
 use super::scenery::Scenery;
 use super::svg::{Anchor, Svg, escaped, text_width, wrapped};
 use super::view::View;
-use super::{COLUMNS, GAP, MARGIN, PANEL, Panel, WIDTH};
+use super::{COLUMNS, Chapter, GAP, MARGIN, PANEL, Panel, WIDTH};
 use crate::moment::{fragment, of_task};
 use crate::palette::{BLUE, Colour, GREEN, INK, MUTED, PAPER, PURPLE, RED, VERMILLION, hex};
 use crate::visible::shortened;
@@ -87,7 +87,7 @@ impl Board<'_> {
         for (i, (panel, caption)) in self.panels.iter().zip(&captions).enumerate() {
             let left = MARGIN + (PANEL + GAP) * (i % COLUMNS) as f64;
             let top = tops[i / COLUMNS];
-            self.panel(&mut svg, i, panel, (left, top));
+            self.panel(&mut svg, &format!("p{i}"), panel, (left, top));
             let below = (left, top + self.view.height + 19.0);
             let corner = if self.is_single() {
                 (left + PANEL + GAP, top + 19.0)
@@ -99,6 +99,32 @@ impl Board<'_> {
         self.legend(&mut svg, height - 18.0);
         svg.raw("</svg>\n");
         svg.body
+    }
+
+    /// The panels without their words, each a picture of its own.
+    pub(super) fn chapters(&self, prefix: &str) -> Vec<Chapter> {
+        let chapter = |(i, panel): (usize, &Panel)| {
+            let mut svg = Svg::default();
+            svg.raw(&format!(
+                "<svg viewBox=\"-1 -1 {:.0} {:.0}\" aria-hidden=\"true\" focusable=\"false\">\n",
+                PANEL + 2.0,
+                self.view.height + 2.0
+            ));
+            self.panel(&mut svg, &format!("{prefix}p{i}"), panel, (0.0, 0.0));
+            svg.raw("</svg>\n");
+            Chapter {
+                time_s: self.time_s(panel),
+                words: panel
+                    .moment
+                    .words
+                    .iter()
+                    .map(|words| sentence(words))
+                    .collect(),
+                is_bad: panel.moment.bad,
+                svg: svg.body,
+            }
+        };
+        self.panels.iter().enumerate().map(chapter).collect()
     }
 
     /// Whether there is one panel, of a run that has no second moment: its words stand beside it.

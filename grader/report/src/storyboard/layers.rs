@@ -15,12 +15,13 @@ use crate::palette::{
 const FINE: f64 = 0.8;
 
 impl Board<'_> {
-    pub(super) fn panel(&self, svg: &mut Svg, index: usize, panel: &Panel, corner: (f64, f64)) {
+    /// A panel whose clip has the name `clip`.
+    pub(super) fn panel(&self, svg: &mut Svg, clip: &str, panel: &Panel, corner: (f64, f64)) {
         let (x, y) = corner;
         let h = self.view.height;
         svg.raw(&format!(
-            "<clipPath id=\"p{index}\"><rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{PANEL:.1}\" height=\"{h}\" rx=\"5\"/></clipPath>\n\
-             <g clip-path=\"url(#p{index})\">\n<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{PANEL:.1}\" height=\"{h}\" fill=\"#F8F9FB\"/>\n"
+            "<clipPath id=\"{clip}\"><rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{PANEL:.1}\" height=\"{h}\" rx=\"5\"/></clipPath>\n\
+             <g clip-path=\"url(#{clip})\">\n<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{PANEL:.1}\" height=\"{h}\" fill=\"#F8F9FB\"/>\n"
         ));
         self.ground(svg, panel, corner);
         self.solids(svg, panel, corner);

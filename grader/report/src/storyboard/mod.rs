@@ -37,6 +37,31 @@ const PANEL: f64 = (WIDTH - 2.0 * MARGIN - 2.0 * GAP) / COLUMNS as f64;
 ///
 /// A run without a tick has one panel: the arm as its file has it.
 pub fn storyboard(run: &TaskRun, grade: &TaskGrade) -> String {
+    board(run, grade).draw()
+}
+
+/// One panel of a storyboard, for a page that writes its captions itself.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Chapter {
+    /// The time of its moment \[s\].
+    pub(crate) time_s: f64,
+    /// What happened then, a sentence each.
+    pub(crate) words: Vec<String>,
+    /// Whether it cost points, or ended the run.
+    pub(crate) is_bad: bool,
+    /// The picture, as a part of a page; its names begin with the prefix that was given.
+    pub(crate) svg: String,
+}
+
+/// The panels of a storyboard one by one; none of a run without a tick.
+pub(crate) fn chapters(run: &TaskRun, grade: &TaskGrade, prefix: &str) -> Vec<Chapter> {
+    if run.trace.is_empty() {
+        return Vec::new();
+    }
+    board(run, grade).chapters(prefix)
+}
+
+fn board<'a>(run: &'a TaskRun, grade: &'a TaskGrade) -> Board<'a> {
     let stage = Stage::of(run);
     let camera = Camera::of(run);
     let targets = targets(run);
@@ -54,15 +79,14 @@ pub fn storyboard(run: &TaskRun, grade: &TaskGrade) -> String {
         panels.push(Panel::of(&stage, &targets, None, moment));
     }
     let scenery = Scenery::of(run, &stage);
-    let board = Board {
+    Board {
         view: View::around(&camera, &panels, &scenery),
         run,
         grade,
         camera,
         panels,
         scenery,
-    };
-    board.draw()
+    }
 }
 
 /// Why nothing was run, a sentence each.
