@@ -4,8 +4,9 @@ use kinemark_sim::text::number::seconds;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::figure::figure;
-use super::foreign;
+use super::head::verdict;
 use super::viewer::{self, ViewerCode, seek};
+use super::{foreign, title_of};
 use crate::compare_text::{change, together};
 use crate::palette::plot_css;
 use crate::plot::differences;
@@ -47,10 +48,7 @@ pub fn comparison(comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Stri
             }
             body {
                 a class="skip" href="#scores" { "Skip to the scores" }
-                header {
-                    h1 { "Two submissions of " (foreign(&comparison.lab)) }
-                    p class="lead" { "B is shown translucent beside A. A difference is B's points above A's." }
-                }
+                (head(comparison, title_of(a)))
                 main {
                     (scores(comparison))
                     @for (i, task) in comparison.tasks.iter().enumerate() {
@@ -82,29 +80,55 @@ fn replay(task: &TaskComparison, a: &GradedRun, b: &GradedRun) -> Option<String>
     Some(Replay::of(run_a, of_a).beside("A", ghost).json())
 }
 
-fn scores(comparison: &Comparison) -> Markup {
-    let side = |letter: &str, side: &SideRecord| {
-        html! {
-            tr {
-                th scope="row" { (letter) }
-                td { (foreign(&side.name)) }
-                td { (foreign(&side.submission)) }
-                td { (side.verdict.name()) }
-                td class="number" { (points(side.points)) " of " (points(side.max_points)) }
-            }
+/// The head: both submissions with what they earned.
+fn head(comparison: &Comparison, title: &str) -> Markup {
+    html! {
+        header class="head" {
+            p class="eyebrow" { "Kinemark comparison" }
+            h1 { (foreign(title)) }
+            p class="by" { (foreign(&comparison.lab)) " · two submissions" }
+            div class="first" { (side("A", &comparison.a)) (side("B", &comparison.b)) }
+            p class="mode" { "B is shown translucent beside A. A difference is B's points above A's." }
         }
+    }
+}
+
+/// One of the two, by its letter.
+fn side(letter: &str, side: &SideRecord) -> Markup {
+    let share = match side.max_points > 0.0 {
+        true => (side.points / side.max_points).clamp(0.0, 1.0),
+        false => 0.0,
     };
     html! {
-        section id="scores" aria-labelledby="scores-title" {
+        div class="result" role="group" aria-label={ "Submission " (letter) } {
+            p { strong { (letter) ": " (foreign(&side.name)) } " · " (foreign(&side.submission)) }
+            p class="score" { b { (points(side.points)) } span { "of " (points(side.max_points)) " points" } }
+            svg class="meter" viewBox="0 0 100 2" preserveAspectRatio="none" aria-hidden="true" focusable="false" {
+                rect class="rest" width="100" height="2" {}
+                rect class="part" width=(format!("{:.2}", 100.0 * share)) height="2" {}
+            }
+            p { (verdict(side.verdict, side.points)) }
+        }
+    }
+}
+
+/// The tasks with the points of both.
+fn scores(comparison: &Comparison) -> Markup {
+    html! {
+        section id="scores" aria-labelledby="scores-title" tabindex="-1" {
             h2 id="scores-title" { "Scores" }
             div class="wide" tabindex="0" role="group" aria-label="Both submissions" {
                 table class="compared" {
                     thead { tr {
-                        th scope="col" { "" span class="unseen" { "Letter" } }
-                        th scope="col" { "Report" } th scope="col" { "Submission" } th scope="col" { "Verdict" }
-                        th scope="col" class="number" { "Points" }
+                        th scope="col" { "Task" }
+                        th scope="col" class="number" { "A" } th scope="col" class="number" { "B" }
+                        th scope="col" class="number" { "of" } th scope="col" class="number" { "Difference" }
                     } }
-                    tbody { (side("A", &comparison.a)) (side("B", &comparison.b)) }
+                    tbody {
+                        @for (i, task) in comparison.tasks.iter().enumerate() {
+                            (row_of(&html! { a href=(format!("#task-{}", i + 1)) { (foreign(&task.title)) } }, &task.points, [Outcome::Full; 2]))
+                        }
+                    }
                 }
             }
             @if !comparison.notes.is_empty() {
@@ -124,7 +148,10 @@ fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) ->
     let plots = found.map_or_else(Vec::new, |(a, b)| differences(a, b, first));
     html! {
         section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
-            h2 id={ (id) "-title" } { (foreign(&task.title)) }
+            div class="title" {
+                h2 id={ (id) "-title" } { (foreign(&task.title)) }
+                p { "A: " (verdict(task.verdict_a, task.points.a)) " B: " (verdict(task.verdict_b, task.points.b)) }
+            }
             @for (letter, ended) in [("A", &task.ended_a), ("B", &task.ended_b)] {
                 @if let Some(ended) = ended { (stopped(&task.name, letter, ended)) }
             }
@@ -141,7 +168,6 @@ fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) ->
                     tfoot { (row("All", &task.points, [Outcome::Full; 2])) }
                 }
             }
-            p class="quiet" { "A: " (task.verdict_a.name()) ", B: " (task.verdict_b.name()) }
             @if !plots.is_empty() {
                 h3 { "What differs over time" }
                 div class="plots" {
@@ -155,9 +181,19 @@ fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) ->
 }
 
 fn row(title: &str, pair: &Pair, outcomes: [Outcome; 2]) -> Markup {
+    row_of(&foreign(title), pair, outcomes)
+}
+
+fn row_of(title: &Markup, pair: &Pair, outcomes: [Outcome; 2]) -> Markup {
+    // that it is more or less is said by its sign, too
+    let class = match pair.difference {
+        more if more > 0.0 => "number full",
+        less if less < 0.0 => "number none",
+        _ => "number",
+    };
     html! {
         tr {
-            th scope="row" { (foreign(title)) }
+            th scope="row" { (title) }
             @for (earned, outcome) in [pair.a, pair.b].into_iter().zip(outcomes) {
                 td class="number" {
                     @match outcome {
@@ -168,7 +204,7 @@ fn row(title: &str, pair: &Pair, outcomes: [Outcome; 2]) -> Markup {
                 }
             }
             td class="number" { (points(pair.max)) @if let Some(max_b) = pair.max_b { " → " (points(max_b)) } }
-            td class="number" { (change(pair.difference)) }
+            td class=(class) { (change(pair.difference)) }
         }
     }
 }
