@@ -2,13 +2,17 @@
 
 use std::path::Path;
 
+use kinemark_course::page::SORTED_TABLE;
+use kinemark_course::staffed_lab::engine_id;
 use kinemark_grader::record::grade::{Grade, GradeMode};
 use kinemark_grader::record::quantity::points;
 use kinemark_grader::record::sums;
+use kinemark_grader::record::verdict::Verdict;
+use kinemark_report::html::{StaticPage, verdict_words};
 use kinemark_report::moment::ADDRESS_PART;
 use kinemark_report::output::{PAGE_FILE, RECORD_FILE};
 use kinemark_report::visible::visible;
-use maud::{DOCTYPE, html};
+use maud::{Markup, html};
 use percent_encoding::utf8_percent_encode;
 
 use super::files;
@@ -70,56 +74,77 @@ pub(super) fn page(folder: &Path, token: &Token) -> String {
         .map(|(name, page)| entry(folder, name, page))
         .collect();
     let more = found.count();
-    let page = html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                meta name="color-scheme" content="light dark";
-                title { "Reports" }
-                style {
-                    "body{font:1rem/1.5 system-ui,sans-serif;max-width:60rem;margin:2rem auto;padding:0 1rem}"
-                    "table{border-collapse:collapse;width:100%}th,td{text-align:left;padding:.4rem .8rem .4rem 0;border-bottom:1px solid #8886}"
-                    ".number{text-align:right;font-variant-numeric:tabular-nums}"
-                }
-            }
-            body {
-                main {
-                    h1 { "Reports" }
-                    @if entries.is_empty() {
-                        p { "There is no report here now." }
-                    } @else {
-                        table {
-                            thead {
-                                tr {
-                                    th scope="col" { "Report" }
-                                    th scope="col" { "Lab" }
-                                    th scope="col" { "Submission" }
-                                    th scope="col" { "Mode" }
-                                    th scope="col" { "Verdict" }
-                                    th scope="col" class="number" { "Points" }
-                                }
-                            }
-                            tbody {
-                                @for entry in &entries { (row(entry, token)) }
-                            }
-                        }
-                        @if more > 0 {
-                            p {
-                                "and " (more) " more: `kinemark view` lists " (MOST_REPORTS)
-                                "; give it the folder of one of them"
-                            }
+    let body = html! {
+        header class="head" {
+            p class="eyebrow" { "Kinemark" }
+            h1 { "Reports" }
+            @if let Some(sum) = sum(&entries) { p class="by" { (sum) } }
+        }
+        main {
+            section aria-label="Reports of this folder" {
+                @if entries.is_empty() {
+                    p { "There is no report here now." }
+                } @else {
+                    (table(&entries, token))
+                    @if more > 0 {
+                        p class="quiet" {
+                            "and " (more) " more: `kinemark view` lists " (MOST_REPORTS)
+                            "; give it the folder of one of them"
                         }
                     }
                 }
             }
         }
     };
-    page.into_string()
+    let page = StaticPage {
+        title: "Reports",
+        engine: &engine_id(),
+        css: include_str!("index.css"),
+        script: Some(SORTED_TABLE),
+    };
+    page.around(&body)
 }
 
-fn row(entry: &Entry, token: &Token) -> maud::Markup {
+/// How many reports there are, and how many of them have full marks.
+fn sum(entries: &[Entry]) -> Option<String> {
+    let grades = entries.iter().filter_map(|entry| entry.grade.as_ref());
+    let grades: Vec<&Grade> = grades.filter(|grade| is_consistent(grade)).collect();
+    let full = grades
+        .iter()
+        .filter(|grade| grade.verdict == Verdict::Passed)
+        .count();
+    let noun = if grades.len() == 1 {
+        "report"
+    } else {
+        "reports"
+    };
+    (!grades.is_empty()).then(|| format!("{} {noun}, {full} with full marks", grades.len()))
+}
+
+/// The table, which a browser that runs scripts sorts by a click on the name of a column.
+fn table(entries: &[Entry], token: &Token) -> Markup {
+    html! {
+        div class="wide" tabindex="0" role="group" aria-label="Reports" {
+            table data-sortable {
+                caption class="unseen" { "Reports with what each earned" }
+                thead {
+                    tr {
+                        th scope="col" { "Report" }
+                        th scope="col" { "Lab" }
+                        th scope="col" { "Submission" }
+                        th scope="col" { "Mode" }
+                        th scope="col" { "Outcome" }
+                        th scope="col" class="number" { "Points" }
+                        th scope="col" class="number" { "Share" }
+                    }
+                }
+                tbody { @for entry in entries { (row(entry, token)) } }
+            }
+        }
+    }
+}
+
+fn row(entry: &Entry, token: &Token) -> Markup {
     let folder = utf8_percent_encode(&entry.folder, ADDRESS_PART);
     let link = format!(
         "/{}/{folder}/{}",
@@ -134,17 +159,40 @@ fn row(entry: &Entry, token: &Token) -> maud::Markup {
                     td { bdi { (visible(&grade.lab.name)) } }
                     td { bdi { (visible(&grade.submission.name)) } }
                     @if is_consistent(grade) {
+                        @let share = if grade.max_points > 0.0 { 100.0 * grade.points / grade.max_points } else { 0.0 };
                         td { (mode(grade.mode)) }
-                        td { (grade.verdict.name()) }
-                        td class="number" { (points(grade.points)) " of " (points(grade.max_points)) }
+                        td { span class={ "pill " (colour(grade)) } { (verdict_words(grade.verdict)) } }
+                        td class="number" data-key=(grade.points) { (points(grade.points)) " of " (points(grade.max_points)) }
+                        td class="number" data-key=(share) {
+                            meter min="0" max="100" value=(share) aria-hidden="true" {} " " (format!("{share:.0}")) "\u{a0}%"
+                        }
                     } @else {
-                        td colspan="3" { "changed: its points contradict each other" }
+                        (nothing("changed: its points contradict each other", 2))
                     }
                 }
-                None if entry.page == "compare.html" => { td colspan="5" { "two runs compared" } }
-                None => { td colspan="5" { "its record cannot be read" } }
+                None if entry.page == "compare.html" => { (nothing("two runs compared", 4)) }
+                None => { (nothing("its record cannot be read", 4)) }
             }
         }
+    }
+}
+
+/// Words in place of a grade, after the report's name or after the submission's; the columns of numbers are sorted before any grade.
+fn nothing(words: &str, of: usize) -> Markup {
+    html! {
+        td { (words) }
+        @for _ in 1..of { td {} }
+        td class="number" data-key="-1" { "–" }
+        td class="number" data-key="-1" { "–" }
+    }
+}
+
+fn colour(grade: &Grade) -> &'static str {
+    match grade.verdict {
+        Verdict::Passed => "full",
+        Verdict::HostLimit | Verdict::GraderFault => "unjudged",
+        Verdict::Missed if grade.points > 0.0 => "partial",
+        _ => "none",
     }
 }
 
@@ -182,6 +230,7 @@ mod tests {
         assert!(page.contains(&link), "{page}");
         assert!(!page.contains(&token.of_all()), "each report has its own");
         assert!(!page.contains("<b>"), "{page}");
+        assert!(page.contains("data-sortable") && page.contains("script-src 'sha256-"));
         assert!(page.contains("its record cannot be read"));
     }
 

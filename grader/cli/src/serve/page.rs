@@ -18,10 +18,8 @@ const SCRIPT_DIGEST: &str = include_str!("reload.js.sha256");
 /// that it can neither read what else lies on this server nor keep anything in the browser.
 const ALONE: &str = "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
                      img-src data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-/// The list of reports runs nothing.
-const LIST: &str = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-/// The list of a book sorts and filters: its own policy names the one script that runs.
-const BOOK_LIST: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; base-uri 'none'; \
+/// A list sorts and filters: its own policy names the one script that runs.
+const LIST: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; base-uri 'none'; \
                          form-action 'none'; frame-ancestors 'none'";
 /// What a page of ours may do that follows: its own policy lets the scripts run that it names, and no others.
 const FOLLOWING: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \
@@ -32,14 +30,9 @@ pub(super) fn alone(page: impl IntoResponse) -> Response {
     answer(page, ALONE)
 }
 
-/// The list of reports.
-pub(super) fn list(page: String) -> Response {
+/// The list of reports, or that of a book.
+pub(super) fn sorted_list(page: String) -> Response {
     answer(page.into_bytes(), LIST)
-}
-
-/// The list of a book.
-pub(super) fn book_list(page: String) -> Response {
-    answer(page.into_bytes(), BOOK_LIST)
 }
 
 /// A page of ours with the script that follows; `seen` is the count of the report.

@@ -175,7 +175,7 @@ async fn start(State(site): State<Arc<Site>>) -> Response {
     if site.book.is_some() {
         let list = off_thread(move || site.book.as_ref().map(ServedBook::list)).await;
         return match list.flatten() {
-            Some(list) => page::book_list(list),
+            Some(list) => page::sorted_list(list),
             None => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
         };
     }
@@ -191,7 +191,7 @@ async fn start(State(site): State<Arc<Site>>) -> Response {
             let to = [(header::LOCATION, name)];
             (StatusCode::TEMPORARY_REDIRECT, to).into_response()
         }
-        Some(Err(list)) => page::list(list),
+        Some(Err(list)) => page::sorted_list(list),
         None => StatusCode::INTERNAL_SERVER_ERROR.into_response(),
     }
 }

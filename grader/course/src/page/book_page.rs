@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use kinemark_report::html::{StaticPage, foreign};
 use maud::{Markup, html};
 
-use super::names::{NamedStudent, TABLE, table_of};
+use super::names::{NamedStudent, SORTED_TABLE, table_of};
 use super::shown::{CSS, count, section};
 
 /// What the page shows.
@@ -58,7 +58,7 @@ pub fn book_page(list: &BookList) -> String {
         title,
         engine: &list.engine,
         css: CSS,
-        script: Some(TABLE),
+        script: Some(SORTED_TABLE),
     };
     page.around(&body)
 }

@@ -7,7 +7,7 @@ use super::checks::checks;
 use super::groups;
 use super::head::{PageHead, head};
 use super::losses::{clusters, hidden, mistakes, slow_runs};
-use super::names::{NamedStudent, TABLE, table_of};
+use super::names::{NamedStudent, SORTED_TABLE, table_of};
 use super::points::distribution;
 use super::shown::{CSS, all, section};
 use crate::clusters::Cluster;
@@ -53,7 +53,7 @@ pub fn class_page(
         title: &title,
         engine: &page_head.engine,
         css: CSS,
-        script: names.map(|_| TABLE),
+        script: names.map(|_| SORTED_TABLE),
     };
     page.around(&body)
 }

@@ -15,5 +15,5 @@ mod strip;
 pub use self::book_page::{BookList, LabPages, book_page};
 pub use self::class_page::class_page;
 pub use self::head::PageHead;
-pub use self::names::{NamedStudent, named_students};
+pub use self::names::{NamedStudent, SORTED_TABLE, named_students};
 pub use self::staff_page::{StaffPage, staff_page};
