@@ -115,7 +115,7 @@ fn no_file_has(bed: &TestBed, folder: &str, parts: &[String]) {
 #[test]
 fn a_grade_asks_and_names_the_command_that_goes_on() {
     let bed = graded();
-    let grade = bed.run(&["grade", LAB, "submission.rhai"]).stdout;
+    let grade = bed.run(&["grade", LAB, "submission.rhai", "-v"]).stdout;
     for line in [
         "next: Which way is up?  (kinemark hint fk/near)\n",
         "next: What is left over?  (kinemark hint fk/exact)\n",

@@ -4,9 +4,10 @@ use std::process::ExitCode;
 
 use kinemark_grader::task::problem::LoadError;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
-use textwrap::{WordSeparator, WordSplitter};
+use textwrap::WordSplitter;
 
 use crate::shown_diagnostic::{ShownDiagnostic, lines, words};
+use crate::wrapping;
 
 /// Points lost, or a comparison that differs.
 pub(crate) const LOST: u8 = 1;
@@ -138,15 +139,24 @@ fn show(diagnostic: &dyn Diagnostic) {
     let _ = anstream::stderr().write_all(rendered(diagnostic).as_bytes());
 }
 
+/// Wider lines are hard to read.
+const MOST_COLUMNS: usize = 100;
+/// Narrower ones have no room for a place in a file.
+const LEAST_COLUMNS: usize = 40;
+
 /// A diagnostic in lines for a terminal, with colours.
 pub(crate) fn rendered(diagnostic: &dyn Diagnostic) -> String {
     let mut text = String::new();
+    let terminal = wrapping::columns(&std::io::stderr());
+    let columns = terminal.map_or(MOST_COLUMNS, |columns| {
+        columns.clamp(LEAST_COLUMNS, MOST_COLUMNS)
+    });
     let theme = GraphicalTheme::unicode();
     let handler = GraphicalReportHandler::new_themed(theme)
-        .with_width(100)
+        .with_width(columns)
         // a name such as `04-knock` or a path stays whole
         .with_break_words(false)
-        .with_word_separator(WordSeparator::AsciiSpace)
+        .with_word_separator(wrapping::separator())
         .with_word_splitter(WordSplitter::NoHyphenation);
     // the handler writes to a string, which cannot fail
     let _ = handler.render_report(&mut text, &ShownDiagnostic::of(diagnostic));

@@ -61,6 +61,7 @@ mod visible_expected;
 mod whose_labs;
 mod worker;
 mod working_lab;
+mod wrapping;
 
 /// With the allocator of glibc the labs with many small messages take a tenth longer (docs/performance.md).
 #[global_allocator]

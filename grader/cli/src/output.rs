@@ -1,6 +1,6 @@
 //! What leaves the command: standard output, and files that are whole or not there.
 
-use std::io::{ErrorKind, IsTerminal as _, Write as _};
+use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 
 use kinemark_course::durable::{self, Readers};
@@ -8,11 +8,11 @@ use kinemark_report::visible::{visible, visible_json};
 use kinemark_toolbox::styled_text::{Emphasis, StyledText};
 use owo_colors::OwoColorize as _;
 use serde::Serialize;
-use textwrap::{WordSeparator, WordSplitter};
 
 use crate::disk::plain;
 use crate::failure::Failure;
 use crate::unfinished::unfinished_file;
+use crate::wrapping;
 
 /// A path in a line of output: folders may be called by what students chose, so characters that steer a terminal are written out.
 pub(crate) fn path(path: &Path) -> String {
@@ -33,40 +33,10 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
 
 /// Prints lines to read: a terminal gets them as wide as it is, with what does not fit below where the line began.
 pub(crate) fn print_lines(text: &str) -> Result<(), Failure> {
-    let width = std::io::stdout()
-        .is_terminal()
-        .then(terminal_size::terminal_size);
-    match width.flatten() {
-        Some((terminal_size::Width(columns), _)) if columns >= LEAST_COLUMNS => {
-            print(&wrapped(text, columns.into()))
-        }
-        _ => print(text),
+    match wrapping::columns(&std::io::stdout()) {
+        Some(columns) => print(&wrapping::wrapped(text, columns)),
+        None => print(text),
     }
-}
-
-/// A narrower terminal wraps by itself as well as anybody could.
-const LEAST_COLUMNS: u16 = 40;
-
-/// `text` in lines of at most `columns`. What goes over stands below the words of its line: below the text behind `next: `, say.
-fn wrapped(text: &str, columns: usize) -> String {
-    let wrap = |line: &str| {
-        let indent = line.len() - line.trim_start_matches(' ').len();
-        let plain = anstream::adapter::strip_str(line).to_string();
-        let words = plain.trim_start_matches(' ');
-        let labels = ["next: ", "likely: ", "stopped: ", "first differs "];
-        let label = labels.iter().find(|label| words.starts_with(**label));
-        let hanging = indent + label.map_or(0, |label| label.len());
-        // a line that is mostly indent would be a column of single words
-        let hanging = " ".repeat(hanging.min(columns / 2));
-        let options = textwrap::Options::new(columns)
-            .subsequent_indent(&hanging)
-            .word_separator(WordSeparator::AsciiSpace)
-            .word_splitter(WordSplitter::NoHyphenation)
-            .break_words(false);
-        textwrap::fill(line, options)
-    };
-    let lines: Vec<String> = text.split('\n').map(wrap).collect();
-    lines.join("\n")
 }
 
 /// Prints text with emphasis, in colours where they belong.
@@ -140,21 +110,4 @@ fn put(readers: Readers, path: &Path, bytes: &[u8]) -> std::io::Result<()> {
     let mut file = unfinished_file(durable::parent(path), readers)?;
     file.write_all(bytes)?;
     durable::put_in_place(file, path)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn what_does_not_fit_stands_below_its_words() {
-        let text = "  + 2/2  short\n      next: \u{1b}[2mlook where the arm\u{1b}[0m stands at the end of the run\n";
-        assert_eq!(
-            wrapped(text, 40),
-            "  + 2/2  short\n      next: \u{1b}[2mlook where the arm\u{1b}[0m stands at\n            the end of the run\n"
-        );
-        // a link is not taken apart
-        let link = "      look here first: out/report.html#task=knock&t=6.0512345";
-        assert!(wrapped(link, 40).contains("\n      out/report.html#task=knock&t=6.0512345"));
-    }
 }

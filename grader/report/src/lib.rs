@@ -9,6 +9,7 @@
 )]
 
 pub mod brief_page;
+mod check_text;
 pub mod code_block;
 pub mod compare_text;
 pub mod explain_text;

@@ -8,15 +8,12 @@ use kinemark_sim::text::number::seconds;
 use owo_colors::OwoColorize as _;
 use unicode_width::UnicodeWidthStr as _;
 
-use super::measured::Measured;
+pub(crate) use super::check_text::loss_without_evidence;
+use super::check_text::{folds, line, push_checks};
 use super::moment::{fragment, last_before, of_task};
 use super::stop_words::stop_of_whole_file;
 use super::visible::visible;
-use kinemark_grader::record::grade::{
-    CheckGrade, EventRecord, Evidence, Grade, GradeMode, Instant, Measure, Outcome, Stopped,
-    TaskGrade, TaskKind,
-};
-use kinemark_grader::record::hints;
+use kinemark_grader::record::grade::{EventRecord, Grade, GradeMode, Stopped, TaskGrade, TaskKind};
 use kinemark_grader::record::quantity::{points, with_unit};
 use kinemark_grader::record::verdict::Verdict;
 
@@ -24,8 +21,27 @@ use kinemark_grader::record::verdict::Verdict;
 const NO_SOURCES: &str =
     "sources: none beside this module; hand in the files that it is built from with it";
 
-/// Renders `grade`.
+/// How much of a grade is shown.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Detail {
+    /// The points alone, in one line.
+    Total,
+    /// Of each task the first check that lost points in full, and of the others a line each at most.
+    Folded,
+    /// Every check in full.
+    Everything,
+}
+
+/// Renders `grade`, every check in full.
 pub fn text(grade: &Grade) -> String {
+    detailed(grade, Detail::Everything)
+}
+
+/// Renders as much of `grade` as is asked for.
+pub fn detailed(grade: &Grade, detail: Detail) -> String {
+    if detail == Detail::Total {
+        return total(grade);
+    }
     let mut out = String::new();
     let mode = match grade.mode {
         GradeMode::Graded => "graded on visible and hidden cases",
@@ -57,27 +73,34 @@ pub fn text(grade: &Grade) -> String {
     } else {
         for task in &grade.tasks {
             out.push('\n');
-            push_task(&mut out, task, &grade.submission.name);
+            push_task(&mut out, task, &grade.submission.name, detail);
         }
     }
     out.push('\n');
-    let total = format!(
+    let has_checks = stop_of_whole_file(grade).is_none();
+    if detail == Detail::Folded && has_checks && folds(grade) {
+        let how = "`kinemark grade -v` shows every check in full";
+        line(&mut out, &how.dimmed().to_string());
+    }
+    out.push_str(&total(grade));
+    out
+}
+
+/// The line of the points.
+fn total(grade: &Grade) -> String {
+    let earned = format!(
         "{} of {} points",
         points(grade.points),
         points(grade.max_points)
     );
     let later = points_at_hand_in(grade).map_or_else(String::new, |later| format!("; {later}"));
-    let total = format!("{}{later}", total.bold());
     let undecided = grade.tasks.iter().any(|task| !task.verdict.is_decided());
-    if undecided {
-        line(
-            &mut out,
-            &format!("{total}, but not all is decided: grade it again"),
-        );
+    let again = if undecided {
+        ", but not all is decided: grade it again"
     } else {
-        line(&mut out, &total);
-    }
-    out
+        ""
+    };
+    format!("{}{later}{again}\n", earned.bold())
 }
 
 /// The points that practice leaves open, in words, if there are any.
@@ -86,13 +109,8 @@ pub(crate) fn points_at_hand_in(grade: &Grade) -> Option<String> {
         .then(|| format!("{} more when you hand in", points(grade.points_at_hand_in)))
 }
 
-fn line(out: &mut String, text: &str) {
-    out.push_str(text.trim_end());
-    out.push('\n');
-}
-
 // long: the lines of a task in the order in which they are printed
-fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
+fn push_task(out: &mut String, task: &TaskGrade, file: &str, detail: Detail) {
     let verdict = match task.verdict {
         Verdict::Passed => task.verdict.name().green().to_string(),
         Verdict::Missed => task.verdict.name().yellow().to_string(),
@@ -164,9 +182,7 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str) {
             ),
         );
     }
-    for check in &task.checks {
-        push_check(out, check, &task.name);
-    }
+    push_checks(out, task, detail == Detail::Everything);
     let lost: Vec<String> = task
         .hidden
         .iter()
@@ -281,123 +297,80 @@ pub(crate) fn kept_words(stopped: &Stopped, kept: f64) -> String {
     format!("{went_on}. The task keeps {kept} of the points that this run earns.")
 }
 
-fn push_check(out: &mut String, check: &CheckGrade, task: &str) {
-    let (mark, word) = match check.outcome {
-        Outcome::Full => ("+".green().to_string(), ""),
-        Outcome::Partial => ("~".yellow().to_string(), ""),
-        Outcome::None => ("-".red().to_string(), ""),
-        Outcome::NotJudged => (".".dimmed().to_string(), "  not judged"),
-        Outcome::AtHandIn => (".".dimmed().to_string(), "  judged when you hand in"),
-    };
-    let earned = match check.outcome {
-        Outcome::AtHandIn => format!("({})", points(check.max_points)),
-        _ => format!("{}/{}", points(check.points), points(check.max_points)),
-    };
-    line(
-        out,
-        &format!("  {mark} {earned:>9}  {}{word}", visible(&check.title)),
-    );
-    if let Some(measure) = &check.measure {
-        line(
-            out,
-            &format!("               {}", band(measure, check.outcome).dimmed()),
-        );
-    }
-    if let Some(first) = loss_without_evidence(check) {
-        let at = format!("[tick {}] {}", first.tick, fragment(task, first.time_s));
-        line(
-            out,
-            &format!(
-                "               points are lost from {} on {}",
-                seconds(first.time_s),
-                at.dimmed()
-            ),
-        );
-    }
-    for evidence in &check.evidence {
-        line(
-            out,
-            &format!("               {}", evidence_text(evidence, task)),
-        );
-    }
-    if let Some(next) = &check.next_step {
-        let more = match check.has_hints {
-            true => format!("  (kinemark hint {})", hints::name(task, &check.name)),
-            false => String::new(),
-        };
-        line(
-            out,
-            &format!("               {} {next}{}", "next:".cyan(), more.dimmed()),
-        );
-    }
-}
-
-/// Where a check began to lose points, if its evidence shows other moments only.
-pub(crate) fn loss_without_evidence(check: &CheckGrade) -> Option<Instant> {
-    let first = check.first_lost?;
-    let has_evidence = check
-        .evidence
-        .iter()
-        .any(|fact| fact.tick == Some(first.tick));
-    (!has_evidence).then_some(first)
-}
-
-/// The value against its band, and the margin of a run that is full.
-pub fn band(measure: &Measure, outcome: Outcome) -> String {
-    let measured = Measured::of(measure);
-    let (to, from) = if measure.zero >= measure.full {
-        ("up to", "from")
-    } else {
-        ("at", "at")
-    };
-    let mut text = format!(
-        "{}: {}; all points {to} {}, none {from} {}",
-        measure.quantity, measured.value, measured.full, measured.zero
-    );
-    // with a margin the visible run is full; hidden ones may have lost points
-    if let (Outcome::Full | Outcome::Partial, Some(margin)) = (outcome, measured.margin)
-        && measure.margin() > Some(0.0)
-    {
-        let _ = write!(text, "; margin {margin}");
-    }
-    if let Some(beside) = measured.beside {
-        let _ = write!(text, "; {beside}");
-    }
-    text
-}
-
-fn evidence_text(evidence: &Evidence, task: &str) -> String {
-    let message = visible(&evidence.message).into_owned();
-    match (evidence.tick, evidence.time_s) {
-        (Some(tick), Some(time_s)) => {
-            let link = fragment(task, time_s);
-            format!(
-                "{message} {}",
-                format!("[tick {tick}, {}] {link}", evidence.signal).dimmed()
-            )
-        }
-        _ => message,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kinemark_grader::record::grade::{CheckGrade, Outcome};
+    use kinemark_grader::record::sample::graded;
 
-    /// A hint on hidden runs sends the reader to the margins of the visible one.
-    #[test]
-    fn a_margin_is_shown_where_only_hidden_runs_lost_points() {
-        let measure = |value| Measure {
-            quantity: "way".to_owned(),
-            value: Some(value),
-            unit: "s".to_owned(),
-            full: 2.0,
-            zero: 4.0,
-            reference: None,
-            prediction: None,
+    /// A grade with one task, of whose checks two lost points, one is full and two wait.
+    fn of_five() -> Grade {
+        let mut grade = graded().grade;
+        grade.tasks.truncate(1);
+        let task = &mut grade.tasks[0];
+        let full = task.checks[0].clone();
+        let named = |title: &str, outcome| CheckGrade {
+            title: title.to_owned(),
+            outcome,
+            ..full.clone()
         };
-        let has_margin = |value, outcome| band(&measure(value), outcome).contains("; margin");
-        assert!(has_margin(1.0, Outcome::Full) && has_margin(1.0, Outcome::Partial));
-        assert!(!has_margin(3.0, Outcome::Partial) && !has_margin(1.0, Outcome::NotJudged));
+        let lost = |title: &str| CheckGrade {
+            next_step: Some(format!("Look at {title}.")),
+            points: 0.0,
+            ..named(title, Outcome::None)
+        };
+        let waiting = |title: &str| CheckGrade {
+            measure: None,
+            points: 0.0,
+            ..named(title, Outcome::NotJudged)
+        };
+        task.checks = vec![
+            named("is full", Outcome::Full),
+            waiting("waits"),
+            lost("first"),
+            lost("second"),
+            waiting("waits, too"),
+        ];
+        grade
+    }
+
+    fn plain(grade: &Grade, detail: Detail) -> Vec<String> {
+        let text = detailed(grade, detail);
+        // a colour is `ESC [ ... m`
+        let mut parts = text.split('\u{1b}');
+        let first = parts.next().unwrap_or_default().to_owned();
+        let shown = parts.map(|part| part.split_once('m').map_or("", |(_, shown)| shown));
+        let text: String = std::iter::once(first.as_str()).chain(shown).collect();
+        text.lines().map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn the_first_check_that_lost_points_is_in_full_and_others_in_a_line() {
+        let lines = plain(&of_five(), Detail::Folded);
+        let with = |words: &str| lines.iter().filter(|line| line.contains(words)).count();
+        assert_eq!(with("next: Look at first."), 1, "{lines:#?}");
+        assert_eq!(with("next: "), 1, "{lines:#?}");
+        assert_eq!(with("is full"), 1);
+        assert_eq!(with("angle turned: "), 1, "of the first alone: {lines:#?}");
+        let second = lines.iter().find(|line| line.contains("second"));
+        assert!(second.is_some_and(|line| line.contains("all points")));
+        let waiting: Vec<_> = lines.iter().filter(|line| line.contains("waits")).collect();
+        assert_eq!(
+            waiting,
+            ["  .       0/2  2 checks not judged yet: waits; waits, too"]
+        );
+        assert_eq!(with("`kinemark grade -v`"), 1);
+        let everything = plain(&of_five(), Detail::Everything);
+        let steps = everything.iter().filter(|line| line.contains("next: "));
+        assert_eq!(steps.count(), 2, "{everything:#?}");
+        assert!(!everything.join("\n").contains("kinemark grade -v"));
+    }
+
+    #[test]
+    fn the_total_is_the_last_line_of_everything() {
+        let grade = of_five();
+        let total = plain(&grade, Detail::Total);
+        assert_eq!(total.len(), 1);
+        assert_eq!(plain(&grade, Detail::Everything).last(), total.first());
     }
 }

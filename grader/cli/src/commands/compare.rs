@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     // neither loses the other: a full disk what is printed, an output that cannot be written the page
     let printed = match args.json {
         true => output::print_json(&comparison),
-        false => output::print(&kinemark_report::compare_text::text(&comparison)),
+        false => output::print_lines(&kinemark_report::compare_text::text(&comparison)),
     };
     if let Err(unwritten) = write(&args.out, &comparison, &a.graded, &b.graded) {
         if let Err(unprinted) = printed {

@@ -143,8 +143,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         })?;
         return Ok(ExitCode::SUCCESS);
     }
-    output::print(&explain_text::text(&explained))?;
-    output::print(&past_text(attempts, &record))?;
+    output::print_lines(&explain_text::text(&explained))?;
+    output::print_lines(&past_text(attempts, &record))?;
     let mut notes = Vec::new();
     if !counts {
         notes.push("this is not the grade that counts".to_owned());

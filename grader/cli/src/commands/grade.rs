@@ -20,6 +20,7 @@ use kinemark_report::output::{
     STORYBOARD_FILE,
 };
 use kinemark_report::short_text::short_text;
+use kinemark_report::text::{Detail, detailed};
 use kinemark_report::visible::visible;
 use serde::Serialize;
 
@@ -44,6 +45,7 @@ use crate::{
     kinemark grade 01-kinematics submission.rhai --png --storyboard\n  \
     kinemark grade 01-kinematics submission.rhai --variants 5\n  \
     kinemark grade --since out --out better\n  \
+    kinemark grade -v\n  \
     kinemark grade --format short\n  \
     kinemark grade --build\n\n\
     In a folder of `kinemark new`, kinemark.toml names the lab. In practice a file variant.toml beside the submission is used unless --variant is given.\n\
@@ -69,9 +71,11 @@ pub(crate) struct Args {
     /// Print the grade record as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// What to print: everything, or a line for each thing that went wrong, as editors read it
+    /// What to print: the grade for people, or a line for each thing that went wrong, as editors read it
     #[arg(long, value_enum, default_value = "full", conflicts_with = "json")]
     pub(crate) format: Format,
+    #[command(flatten)]
+    pub(crate) detail: DetailArgs,
     /// Write each plot as a PNG beside the SVG
     #[arg(long)]
     pub(crate) png: bool,
@@ -106,10 +110,32 @@ pub(crate) struct Args {
     pub(crate) from: LabArgs,
 }
 
+/// How much of a grade is printed for people.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub(crate) struct DetailArgs {
+    /// Print every check in full, and not only the first of each task that lost points
+    #[arg(long, short, conflicts_with_all = ["json", "format"])]
+    verbose: bool,
+    /// Print only the line of the points
+    #[arg(long, short, conflicts_with_all = ["json", "format", "verbose"])]
+    quiet: bool,
+}
+
+impl DetailArgs {
+    /// What is asked for.
+    pub(crate) fn detail(self) -> Detail {
+        match (self.verbose, self.quiet) {
+            (true, _) => Detail::Everything,
+            (false, true) => Detail::Total,
+            (false, false) => Detail::Folded,
+        }
+    }
+}
+
 /// How a grade is printed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Format {
-    /// Every check, with evidence.
+    /// Lines for people; see --verbose and --quiet.
     Full,
     /// `FILE:LINE:COLUMN: KIND: WORDS`, a line each.
     Short,
@@ -236,7 +262,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let work = work(&request)?;
     let grade = &work.graded.grade;
     // beside the record, which is the same wherever the labs lie
-    if let Some(labs) = &work.labs {
+    let is_quiet = args.detail.detail() == Detail::Total;
+    if let Some(labs) = work.labs.as_ref().filter(|_| !is_quiet) {
         failure::note_in_words(labs);
     }
     let is_read = args.format == Format::Full && !args.json;
@@ -276,13 +303,14 @@ fn print(request: &Request<'_>, work: &Work) -> Result<(), Failure> {
             None => output::print_json(grade),
         };
     }
-    if let Some(note) = &work.note {
-        output::print(&format!("{note}\n"))?;
+    let detail = args.detail.detail();
+    if let Some(note) = work.note.as_ref().filter(|_| detail != Detail::Total) {
+        output::print_lines(&format!("{note}\n"))?;
     }
-    output::print_lines(&kinemark_report::text::text(grade))?;
+    output::print_lines(&detailed(grade, detail))?;
     match &work.variants {
-        Some(variants) => output::print_lines(&variants.text(grade)),
-        None => Ok(()),
+        Some(variants) if detail != Detail::Total => output::print_lines(&variants.text(grade)),
+        _ => Ok(()),
     }
 }
 
@@ -293,7 +321,8 @@ fn print_what_is_next(
     history: Option<&History>,
 ) -> Result<(), Failure> {
     let (args, grade) = (request.args, &work.graded.grade);
-    if args.json || args.format == Format::Short {
+    let is_quiet = args.detail.detail() == Detail::Total;
+    if args.json || args.format == Format::Short || is_quiet {
         return Ok(());
     }
     let change = history.and_then(|known| known.change(grade));

@@ -113,7 +113,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
                     is_last: now == of,
                 })?;
             } else {
-                output::print(&known.text(args, check, before))?;
+                output::print_lines(&known.text(args, check, before))?;
             }
         }
         Chosen::List(checks) if args.all => {
@@ -296,7 +296,7 @@ impl LabHints {
         }
         if checks.is_empty() {
             let text = format!("no check of lab `{}` has hints\n", self.lab.name);
-            return output::print(&text);
+            return output::print_lines(&text);
         }
         let width = checks.iter().map(|check| check.name().len()).max();
         let width = width.unwrap_or_default();
@@ -307,7 +307,7 @@ impl LabHints {
             let _ = writeln!(text, "  {name:<width$}  {unfolded} of {of}  {title}");
         }
         let _ = writeln!(text, "\nShow one with `{}`.", example(checks, args));
-        output::print(&text)
+        output::print_lines(&text)
     }
 }
 

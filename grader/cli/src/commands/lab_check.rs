@@ -163,7 +163,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if args.json {
         output::print_json(&audit)?;
     } else {
-        output::print(&text(&audit))?;
+        output::print_lines(&text(&audit))?;
     }
     let bad = audit.problems().next().is_some();
     Ok(ExitCode::from(if bad { LOST } else { 0 }))

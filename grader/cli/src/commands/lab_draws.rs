@@ -90,7 +90,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             draws: &draws,
         })?;
     } else {
-        output::print(&text(&lab, &tasks, &draws))?;
+        output::print_lines(&text(&lab, &tasks, &draws))?;
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -165,7 +165,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         } else if !rows.is_empty() {
             text += &next(&rows);
         }
-        output::print(&text)?;
+        output::print_lines(&text)?;
     }
     // list the labs that load first: a broken one hides no other
     let mut code = ExitCode::SUCCESS;

@@ -212,7 +212,7 @@ fn print(
     for warning in warnings {
         failure::warn_in_words(&warning.message, &warning.help);
     }
-    output::print(&text(out, statement))
+    output::print_lines(&text(out, statement))
 }
 
 /// What is in the file, and what to do with it.

@@ -56,7 +56,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if args.json {
         output::print_json(&verification.summary(&report.grade, &course))?;
     } else {
-        output::print(&verification.text(&report.grade, &course))?;
+        output::print_lines(&verification.text(&report.grade, &course))?;
     }
     Ok(match verification.outcome() {
         Outcome::Same => ExitCode::SUCCESS,

@@ -8,6 +8,7 @@ use std::time::Duration;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::quantity::points;
 use kinemark_report::moment::{FirstLoss, look_first};
+use kinemark_report::text::{Detail, detailed};
 use kinemark_report::visible::{visible, visible_json};
 use kinemark_sim::text::number::seconds;
 use tokio::sync::watch;
@@ -26,7 +27,7 @@ use crate::{interrupt, output};
     after_help = "Examples:\n  kinemark watch\n  kinemark watch 01-kinematics submission.rhai\n\n\
     Grades at once, and again whenever the submission is saved, or the lab if it is in a folder. In practice a project in Rust or C is \
     built first, whenever a source of it is saved; what the compiler reports is in the terminal and in the page. The report opens in the browser \
-    and reloads at the same moment and position. With --json each grade is one line.\n\
+    and reloads at the same moment and position. With --json each grade is one line; with --verbose every grade is printed in full.\n\
     See docs/watch-and-compare.md.\n\
     Exit codes: 0 ended by Ctrl-C, 2 usage, 3 the lab is broken at the start, 4 the grader or this machine failed."
 )]
@@ -144,7 +145,7 @@ fn publish(request: &Request<'_>, work: &Work, count: &watch::Sender<u64>) -> Re
     let grade = &work.graded.grade;
     let line = match request.args.json {
         true => serde_json::to_string(grade).map(|text| visible_json(text) + "\n"),
-        false => Ok(line(grade, work.note.as_deref())),
+        false => Ok(line(grade, work.note.as_deref()) + in_full(request, grade).as_str()),
     };
     let line = line.map_err(|error| {
         Failure::fault(
@@ -153,10 +154,21 @@ fn publish(request: &Request<'_>, work: &Work, count: &watch::Sender<u64>) -> Re
         )
     })?;
     // an output that cannot be written must not lose the report
-    let printed = output::print(&line);
+    let printed = match request.args.json {
+        true => output::print(&line),
+        false => output::print_lines(&line),
+    };
     grade::write(request, work)?;
     count.send_modify(|count| *count += 1);
     printed
+}
+
+/// The whole grade, where that is asked for.
+fn in_full(request: &Request<'_>, grade: &Grade) -> String {
+    match request.args.detail.detail() {
+        Detail::Everything => detailed(grade, Detail::Everything),
+        Detail::Folded | Detail::Total => String::new(),
+    }
 }
 
 /// What is for people alone stands beside the JSON.
