@@ -15,6 +15,7 @@ use crate::commands::{
     watch,
 };
 use crate::failure::Failure;
+use crate::typed_words::ColorArgs;
 use crate::worker;
 
 /// Grades robotics coursework: the same bits everywhere, every lost point explained. Without a command it lists the labs.
@@ -27,6 +28,8 @@ use crate::worker;
 pub(crate) struct CommandLine {
     #[command(flatten)]
     lab_list: lab_list::Args,
+    #[command(flatten)]
+    color: ColorArgs,
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
 }

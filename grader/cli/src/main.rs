@@ -1,5 +1,6 @@
 //! The command `kinemark`: reads what was typed, calls the grader, prints, and returns the documented exit code.
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::Parser as _;
@@ -54,6 +55,7 @@ mod slurm_script;
 mod staff_folder;
 mod typed_numbers;
 mod typed_path;
+mod typed_words;
 mod unfinished;
 mod unfolded_hints;
 mod verification;
@@ -68,10 +70,11 @@ mod wrapping;
 static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
-    if let Err(failure) = command_line::refuse_renamed(std::env::args_os().nth(1).as_deref()) {
+    let words = typed_words::heeded(std::env::args_os().collect());
+    if let Err(failure) = command_line::refuse_renamed(words.get(1).map(AsRef::as_ref)) {
         return failure.report();
     }
-    let args = match command_line::CommandLine::try_parse() {
+    let args = match command_line::CommandLine::try_parse_from(&words) {
         Ok(args) => args,
         Err(error) => {
             // help and version are no errors; anything else is a matter of usage
@@ -81,7 +84,7 @@ fn main() -> ExitCode {
                 0
             };
             // a closed pipe is no reason to fail
-            let _ = as_shown(error).print();
+            let _ = as_shown(&words, error).print();
             return ExitCode::from(code);
         }
     };
@@ -104,8 +107,10 @@ fn main() -> ExitCode {
 }
 
 /// The same error about what was typed as a terminal may show it: a shell types the names of files, which may be a student's.
-fn as_shown(error: clap::Error) -> clap::Error {
-    let shown = std::env::args_os().map(|word| visible(&word.to_string_lossy()).into_owned());
+fn as_shown(words: &[OsString], error: clap::Error) -> clap::Error {
+    let shown = words
+        .iter()
+        .map(|word| visible(&word.to_string_lossy()).into_owned());
     command_line::CommandLine::try_parse_from(shown)
         .err()
         .unwrap_or(error)
