@@ -19,7 +19,9 @@ fn labs_are_listed_from_the_binary_alone() {
         assert!(ran.stdout.contains(lab), "{ran:?}");
     }
     let ran = bed.run(&["--json"]);
-    let labs: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    let list: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(list["format"], 1);
+    let labs = &list["labs"];
     assert_eq!(labs[1]["name"], "01-kinematics");
     assert_eq!(labs[1]["points"], 24.0);
 }
@@ -128,7 +130,9 @@ fn a_renamed_command_says_its_new_name_and_does_nothing() {
         let ran = bed.run(&[old, "--json"]);
         assert_eq!(ran.code, Some(2), "{ran:?}");
         assert!(ran.stderr.contains(message), "{ran:?}");
-        assert_eq!(ran.stdout, "");
+        let printed: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+        assert_eq!(printed["error"]["code"], "cli::usage");
+        assert_eq!(printed["error"]["message"], message);
     }
 }
 

@@ -317,8 +317,49 @@ fn a_broken_lab_takes_no_other_off_the_list() {
     assert!(ran.stderr.contains("unknown key `pionts`"), "{ran:?}");
     let ran = bed.run(&["--json"]);
     assert_eq!(ran.code, Some(3), "{ran:?}");
-    let labs: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
-    assert_eq!(labs.as_array().map(Vec::len), Some(6));
+    let list: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(list["labs"].as_array().map(Vec::len), Some(6));
+    assert_eq!(list["broken"][0]["code"], "lab::toml");
+}
+
+#[test]
+fn a_failure_is_one_value_for_programs_and_words_for_people() {
+    let bed = bed();
+    bed.edit(
+        "labs/00-step-response/lab.toml",
+        "joint = \"shoulder\"",
+        "joint = \"sholder\"",
+    );
+    let words = bed.run(&GRADE);
+    let ran = bed.run(&[&GRADE[..], &["--json"]].concat());
+    assert_eq!(ran.code, words.code, "{ran:?}");
+    assert_eq!(ran.stderr, words.stderr);
+    let printed: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+    assert_eq!(printed["format"], 1);
+    let error = &printed["error"];
+    assert_eq!(error["code"], "lab::unknown_joint", "{error}");
+    let message = error["message"].as_str().expect("a message");
+    assert!(words.stderr.contains(message), "{error}");
+    assert!(error["help"].is_string(), "{error}");
+    let file = std::fs::read_to_string(bed.path("labs/00-step-response/lab.toml"));
+    let file = file.expect("a lab");
+    let span = &error["span"];
+    let number = |name: &str| span[name].as_u64().expect("a number") as usize;
+    let line = file.lines().nth(number("line") - 1).expect("a line");
+    let meant: String = line.chars().skip(number("column") - 1).collect();
+    assert_eq!(
+        meant.chars().take(number("length")).collect::<String>(),
+        "\"sholder\""
+    );
+    for (args, code) in [
+        (&["grade", "--no-such", "--json"][..], "cli::unknown_option"),
+        (&["graed", "--json"], "cli::unknown_command"),
+    ] {
+        let ran = bed.run(args);
+        assert_eq!(ran.code, Some(2), "{ran:?}");
+        let printed: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+        assert_eq!(printed["error"]["code"], code);
+    }
 }
 
 #[test]

@@ -165,7 +165,7 @@ fn course_staff_see_sources_and_who_has_none() {
     );
     let ran = bed.run(&["course", "grade", LAB, "--json"]);
     let rows: Json = serde_json::from_str(&ran.stdout).expect("JSON");
-    let marked: Vec<(&str, bool)> = rows
+    let marked: Vec<(&str, bool)> = rows["standings"]
         .as_array()
         .expect("rows")
         .iter()

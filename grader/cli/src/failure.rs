@@ -6,8 +6,9 @@ use kinemark_grader::task::problem::LoadError;
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
 use textwrap::WordSplitter;
 
+use crate::error_record::{ErrorCode, ErrorEnvelope, ErrorRecord};
 use crate::shown_diagnostic::{ShownDiagnostic, lines, words};
-use crate::wrapping;
+use crate::{output, typed_words, wrapping};
 
 /// Points lost, or a comparison that differs.
 pub(crate) const LOST: u8 = 1;
@@ -25,6 +26,7 @@ pub(crate) const INTERRUPTED: u8 = 130;
 /// What ends a command early.
 #[derive(Debug)]
 pub(crate) struct Failure {
+    /// The exit code.
     code: u8,
     diagnostic: Box<dyn Diagnostic + Send + Sync>,
 }
@@ -96,10 +98,35 @@ impl Failure {
         }
     }
 
-    /// Prints the failure for a person and gives the exit code.
+    /// Prints the failure for a person, and for programs where they read what is printed, and gives the exit code.
     pub(crate) fn report(self) -> ExitCode {
+        print_record(self.record());
+        self.report_for_people()
+    }
+
+    /// Prints the failure for a person alone and gives the exit code.
+    pub(crate) fn report_for_people(self) -> ExitCode {
         show(self.diagnostic.as_ref());
         ExitCode::from(self.code)
+    }
+
+    /// The failure as programs read it.
+    pub(crate) fn record(&self) -> ErrorRecord {
+        let code = match self.code {
+            USAGE => ErrorCode::Usage,
+            BROKEN => ErrorCode::Broken,
+            INTERRUPTED => ErrorCode::Interrupted,
+            _ => ErrorCode::Fault,
+        };
+        ErrorRecord::of(self.diagnostic.as_ref(), code)
+    }
+}
+
+/// Prints what programs read of a failure, where JSON is asked for and none was printed: what is printed is one value.
+pub(crate) fn print_record(record: ErrorRecord) {
+    if typed_words::is_json() && !output::has_printed_json() {
+        // an output that cannot be written is reported for people, as this failure is
+        let _ = output::print_json(&ErrorEnvelope::of(record));
     }
 }
 

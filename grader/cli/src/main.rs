@@ -6,6 +6,8 @@ use std::process::ExitCode;
 use clap::Parser as _;
 use kinemark_report::visible::visible;
 
+use crate::error_record::ErrorRecord;
+
 mod bands_page;
 mod beneath;
 mod brief_plots;
@@ -17,6 +19,7 @@ mod course_intake;
 mod course_log;
 mod disk;
 mod enclosing_course;
+mod error_record;
 mod failure;
 mod fresh_folder;
 mod hand_in_warnings;
@@ -84,7 +87,11 @@ fn main() -> ExitCode {
                 0
             };
             // a closed pipe is no reason to fail
-            let _ = as_shown(&words, error).print();
+            let error = as_shown(&words, error);
+            let _ = error.print();
+            if error.use_stderr() {
+                failure::print_record(ErrorRecord::of_typed(&error));
+            }
             return ExitCode::from(code);
         }
     };

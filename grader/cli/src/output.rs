@@ -1,7 +1,9 @@
 //! What leaves the command: standard output, and files that are whole or not there.
 
+use std::collections::BTreeMap;
 use std::io::{ErrorKind, Write as _};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use kinemark_course::durable::{self, Readers};
 use kinemark_report::visible::{visible, visible_json};
@@ -52,10 +54,50 @@ pub(crate) fn print_styled(text: &StyledText) -> Result<(), Failure> {
     print(&styled.collect::<String>())
 }
 
+/// The format of what `--json` prints, where it has no name of its own: it changes when something is renamed or left out.
+pub(crate) const JSON_FORMAT: u32 = 1;
+
+/// Whether a value was printed as JSON.
+static HAS_PRINTED_JSON: AtomicBool = AtomicBool::new(false);
+
+/// Whether a value was printed as JSON.
+pub(crate) fn has_printed_json() -> bool {
+    HAS_PRINTED_JSON.load(Ordering::Relaxed)
+}
+
 /// Prints a value as JSON, in lines a person can read.
 pub(crate) fn print_json(value: &impl Serialize) -> Result<(), Failure> {
     let text = json(value)?;
+    HAS_PRINTED_JSON.store(true, Ordering::Relaxed);
     print(&text)
+}
+
+/// A value with the number of its format before it.
+#[derive(Serialize)]
+pub(crate) struct Formatted<T> {
+    format: u32,
+    #[serde(flatten)]
+    value: T,
+}
+
+impl<T> Formatted<T> {
+    /// The value as programs get it today.
+    pub(crate) fn new(value: T) -> Self {
+        Self {
+            format: JSON_FORMAT,
+            value,
+        }
+    }
+}
+
+/// Prints a value with named fields as JSON, the number of its format first.
+pub(crate) fn print_formatted(value: &impl Serialize) -> Result<(), Failure> {
+    print_json(&Formatted::new(value))
+}
+
+/// Prints a list as JSON, under its name, the number of its format first.
+pub(crate) fn print_list<T: Serialize>(name: &str, list: &[T]) -> Result<(), Failure> {
+    print_formatted(&BTreeMap::from([(name, list)]))
 }
 
 /// A value as JSON, in lines a person can read, with a line end.

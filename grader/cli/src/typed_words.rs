@@ -1,9 +1,13 @@
-//! What must be known of the words typed before they are read as a command: when there is colour. A refusal of the
-//! words themselves obeys it.
+//! What must be known of the words typed before they are read as a command: whether the answer is JSON, and when there is colour. A
+//! refusal of the words themselves obeys both.
 
 use std::ffi::OsString;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use anstream::ColorChoice;
+
+/// Whether the command prints JSON.
+static JSON: AtomicBool = AtomicBool::new(false);
 
 /// When output has colours.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -34,8 +38,15 @@ pub(crate) struct ColorArgs {
 
 /// Looks at the words, and gives them as they are read: `--color` may come before the command, too.
 pub(crate) fn heeded(words: Vec<OsString>) -> Vec<OsString> {
+    let mut options = words.iter().skip(1).take_while(|word| *word != "--");
+    JSON.store(options.any(|word| word == "--json"), Ordering::Relaxed);
     color_of(&words, |name| std::env::var(name).ok()).write_global();
     with_color_behind(words)
+}
+
+/// Whether the command prints JSON.
+pub(crate) fn is_json() -> bool {
+    JSON.load(Ordering::Relaxed)
 }
 
 /// When there is colour: as `--color` has it, else the environment, in the order of docs/terminal.md.

@@ -92,7 +92,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     };
     if let Err(unwritten) = write(&args.out, &comparison, &a.graded, &b.graded) {
         if let Err(unprinted) = printed {
-            unprinted.report();
+            unprinted.report_for_people();
         }
         return Err(unwritten);
     }

@@ -64,7 +64,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         );
     }
     if args.json {
-        output::print_json(&rows)?;
+        output::print_list("checks", &rows)?;
     } else {
         output::print(&text(&course, &rows))?;
     }

@@ -126,7 +126,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let pages = pages(args, &explained)?;
     let is_same_grade = explained.graded.grade == record.grade;
     if args.json {
-        output::print_json(&Explained {
+        output::print_formatted(&Explained {
             student: &student,
             lab: &rules.name,
             record: &record.key,

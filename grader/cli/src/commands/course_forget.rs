@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let mut index = course.index(&history)?;
     course.put_standings(&history, &mut index)?;
     if args.json {
-        output::print_json(&gone)?;
+        output::print_formatted(&gone)?;
     } else {
         output::print(&format!(
             "{student}: {} lines of the journal, {} records, {} submissions and {} questions removed\n",

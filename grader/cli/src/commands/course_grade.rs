@@ -356,7 +356,7 @@ fn summary(
         .filter(|question| question.lab == rules.name)
         .collect();
     if json {
-        output::print_json(&of_lab)?;
+        output::print_list("standings", &of_lab)?;
     } else {
         output::print(&text(rules, &of_lab, &open))?;
         output::print(&made_otherwise(lab, &of_lab))?;

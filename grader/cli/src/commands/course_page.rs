@@ -123,7 +123,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         findings,
     };
     if args.json {
-        output::print_json(&written)?;
+        output::print_formatted(&written)?;
     } else {
         let book = output::path(course.book.root());
         let next = format!("{} kinemark view {book}\n", "next:".cyan());

@@ -134,7 +134,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         course.put_standings(&history, &mut index)?;
     }
     if args.json {
-        output::print_json(&changes)?;
+        output::print_list("changes", &changes)?;
     } else {
         output::print(&text(args, &course, &changes, &failed))?;
     }

@@ -258,7 +258,7 @@ fn print(args: &Args, form: &Form, made: &Made, out: &Path) -> Result<(), Failur
             note,
             words: note.to_string(),
         });
-        return output::print_json(&Released {
+        return output::print_formatted(&Released {
             lab: &args.lab,
             form: form.name,
             folder: shown,

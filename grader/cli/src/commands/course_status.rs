@@ -106,7 +106,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         index.put_standings(&standings).map_err(index_failure)?;
     }
     if args.json {
-        output::print_json(&all)?;
+        output::print_list("labs", &all)?;
     } else {
         output::print(&text(&course, &all))?;
     }

@@ -79,7 +79,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             .collect(),
     };
     if args.json {
-        output::print_json(&report)?;
+        output::print_formatted(&report)?;
     } else {
         output::print_styled(&text(&report))?;
     }

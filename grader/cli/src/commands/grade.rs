@@ -274,7 +274,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let printed = print(&request, &work);
     if let Err(unwritten) = write(&request, &work) {
         if let Err(unprinted) = printed {
-            unprinted.report();
+            unprinted.report_for_people();
         }
         return Err(unwritten);
     }
@@ -299,7 +299,7 @@ fn print(request: &Request<'_>, work: &Work) -> Result<(), Failure> {
     }
     if args.json {
         return match &work.variants {
-            Some(variants) => output::print_json(&WithVariants { grade, variants }),
+            Some(variants) => output::print_formatted(&WithVariants { grade, variants }),
             None => output::print_json(grade),
         };
     }

@@ -106,7 +106,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             };
             known.unfolded.set(&known.lab.name, &name, now);
             if args.json {
-                output::print_json(&Unfolded {
+                output::print_formatted(&Unfolded {
                     lab: &known.lab.name,
                     check: known.row(check),
                     hints: &check.hints[..now],
@@ -289,7 +289,7 @@ impl LabHints {
     fn print_list(&self, args: &Args, checks: &[&CheckHints]) -> Result<(), Failure> {
         let rows = checks.iter().map(|check| self.row(check));
         if args.json {
-            return output::print_json(&Listed {
+            return output::print_formatted(&Listed {
                 lab: &self.lab.name,
                 checks: rows.collect(),
             });

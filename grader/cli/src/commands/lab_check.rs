@@ -161,7 +161,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         output::write_file(file, page.html().as_bytes(), help)?;
     }
     if args.json {
-        output::print_json(&audit)?;
+        output::print_formatted(&audit)?;
     } else {
         output::print_lines(&text(&audit))?;
     }

@@ -84,7 +84,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let tasks = tasks(&lab, args.task.as_deref())?;
     let draws = draws(&lab, &staff, &tasks)?;
     if args.json {
-        output::print_json(&Printed {
+        output::print_formatted(&Printed {
             lab: &lab.name,
             student: args.student.as_deref(),
             draws: &draws,

@@ -86,7 +86,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     done?;
     if args.json {
-        output::print_json(&filled)?;
+        output::print_formatted(&filled)?;
     } else {
         output::print(&lines(&[
             ("wrote", &filled.written),

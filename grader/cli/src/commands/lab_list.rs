@@ -9,6 +9,7 @@ use kinemark_grader::lab::{Lab, load::lab_names};
 use kinemark_grader::record::quantity::points;
 use serde::Serialize;
 
+use crate::error_record::ErrorRecord;
 use crate::failure::Failure;
 use crate::history::History;
 use crate::labs_folder::{self, LabsFolderArgs};
@@ -37,6 +38,14 @@ struct Row {
     /// The best points in that folder so far.
     #[serde(skip_serializing_if = "Option::is_none")]
     best: Option<f64>,
+}
+
+/// The list for programs.
+#[derive(Serialize)]
+struct Listed<'a> {
+    labs: &'a [Row],
+    /// What is wrong with labs that cannot be read.
+    broken: Vec<ErrorRecord>,
 }
 
 /// Such a file has two lines.
@@ -120,7 +129,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let lab = match Lab::load(files.as_ref(), &name) {
             Ok(lab) => lab,
             Err(error) => {
-                broken.push(error);
+                broken.push(Failure::from(error));
                 continue;
             }
         };
@@ -136,7 +145,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         });
     }
     if args.json {
-        output::print_json(&rows)?;
+        output::print_formatted(&Listed {
+            labs: &rows,
+            broken: broken.iter().map(Failure::record).collect(),
+        })?;
     } else {
         let mut text = String::new();
         // one that is short leaves the titles where they always were
@@ -170,7 +182,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     // list the labs that load first: a broken one hides no other
     let mut code = ExitCode::SUCCESS;
     for error in broken {
-        code = Failure::from(error).report();
+        code = error.report_for_people();
     }
     Ok(code)
 }

@@ -63,7 +63,7 @@ pub(crate) fn run(
     let jobs = jobs.unwrap_or_else(pool::default_jobs);
     let report = MutationReport::new(&bench, fates(&bench, &chosen, jobs), &accepted);
     if json {
-        output::print_json(&report)?;
+        output::print_formatted(&report)?;
     } else {
         output::print(&text(&report, bench.solution()))?;
     }
@@ -184,7 +184,7 @@ fn keep(
         fate,
     };
     if json {
-        output::print_json(&kept)?;
+        output::print_formatted(&kept)?;
     } else {
         let list = reference
             .path()

@@ -133,7 +133,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     if args.json {
         let lab = name;
-        output::print_json(&Written { lab, written })?;
+        output::print_formatted(&Written { lab, written })?;
     } else {
         let lines: String = written
             .iter()

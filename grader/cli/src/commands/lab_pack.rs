@@ -154,7 +154,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         Audience::Staff | Audience::Gradescope => output::write_private_file(&out, &bytes, help)?,
     }
     if args.json {
-        output::print_json(&Written {
+        output::print_formatted(&Written {
             written: &out,
             lab: &lab.name,
             r#for: args.audience.name(),

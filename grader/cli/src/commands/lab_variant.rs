@@ -79,7 +79,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         output::write_file(path, variant.text().as_bytes(), help)?;
     }
     match (args.json, &args.out) {
-        (true, _) => output::print_json(&printed(&args.lab, &args.student, &variant))?,
+        (true, _) => output::print_formatted(&printed(&args.lab, &args.student, &variant))?,
         (false, None) => output::print(&variant.text())?,
         (false, Some(_)) => {}
     }

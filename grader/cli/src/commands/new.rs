@@ -85,7 +85,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     put_in_place(&dir, &written)?;
     let paths: Vec<PathBuf> = written.into_iter().map(|(path, _)| path).collect();
     if args.json {
-        output::print_json(&Written {
+        output::print_formatted(&Written {
             lab: lab.name,
             files: paths,
         })?;

@@ -180,7 +180,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let analysis = analyse(robot, &settings, sweep.as_ref()).map_err(refused)?;
     write_files(args, &analysis)?;
     if args.json {
-        output::print_json(&response_record(&analysis))?;
+        output::print_formatted(&response_record(&analysis))?;
     } else {
         output::print_styled(&response_text(&analysis))?;
     }

@@ -26,7 +26,7 @@ pub(crate) struct Args {
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let loaded = robot_source::load(&args.robot)?;
     if args.json {
-        output::print_json(&robot_record(&loaded.robot))?;
+        output::print_formatted(&robot_record(&loaded.robot))?;
     } else {
         output::print_styled(&robot_text(&loaded.robot))?;
     }

@@ -78,10 +78,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     if args.json {
         let mut records: Vec<Value> = checked.iter().map(scene_record).collect();
         match (&named.lab, records.pop()) {
-            (None, Some(record)) => output::print_json(&record)?,
+            (None, Some(record)) => output::print_formatted(&record)?,
             (lab, last) => {
                 records.extend(last);
-                output::print_json(&json!({ "lab": lab, "scenes": records }))?;
+                output::print_formatted(&json!({ "lab": lab, "scenes": records }))?;
             }
         }
     } else {

@@ -54,7 +54,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let course = Course::find(&report, &args.labs_folder, &args.staff, wanted)?;
     let verification = Verification::of(&report, &course, wanted)?;
     if args.json {
-        output::print_json(&verification.summary(&report.grade, &course))?;
+        output::print_formatted(&verification.summary(&report.grade, &course))?;
     } else {
         output::print_lines(&verification.text(&report.grade, &course))?;
     }

@@ -66,7 +66,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     }
     let address = server.address();
     if args.json {
-        let line = serde_json::json!({ "folder": shown, "address": address });
+        let line = serde_json::json!({ "format": output::JSON_FORMAT, "folder": shown, "address": address });
         output::print(&format!("{line}\n"))?;
     } else {
         output::print(&format!("{shown} is open at {address}\nend with Ctrl-C\n"))?;

@@ -14,6 +14,7 @@ use kinemark_sim::text::number::seconds;
 use tokio::sync::watch;
 
 use super::grade::{self, Build, Request, Work};
+use crate::error_record::ErrorEnvelope;
 use crate::failure::{self, Failure};
 use crate::project::Project;
 use crate::saves::{Saves, WatchEvent};
@@ -134,7 +135,8 @@ fn follow(
             Err(_) if interrupt::asked() => return Ok(()),
             // a lab that is broken for the moment, a variant that is half typed, a full disk
             Err(failure) => {
-                failure.report();
+                print_record(request, &failure);
+                failure.report_for_people();
             }
         }
     }
@@ -161,6 +163,15 @@ fn publish(request: &Request<'_>, work: &Work, count: &watch::Sender<u64>) -> Re
     grade::write(request, work)?;
     count.send_modify(|count| *count += 1);
     printed
+}
+
+/// Prints in a line what programs read of a failure, if this is for programs.
+fn print_record(request: &Request<'_>, failure: &Failure) {
+    let envelope = ErrorEnvelope::of(failure.record());
+    if let (true, Ok(text)) = (request.args.json, serde_json::to_string(&envelope)) {
+        // an output that cannot be written must not end the watch
+        let _ = output::print(&(visible_json(text) + "\n"));
+    }
 }
 
 /// The whole grade, where that is asked for.
