@@ -140,7 +140,14 @@ fn a_renamed_command_says_its_new_name_and_does_nothing() {
 fn help_and_usage_errors_have_their_codes() {
     let bed = TestBed::new();
     assert_eq!(bed.run(&["--help"]).code, Some(0));
-    assert_eq!(bed.run(&["--version"]).code, Some(0));
+    let version = bed.run(&["--version"]);
+    assert_eq!(version.code, Some(0));
+    assert_eq!(version.stdout, bed.run(&["version"]).stdout);
+    let json: serde_json::Value =
+        serde_json::from_str(&bed.run(&["version", "--json"]).stdout).expect("JSON");
+    assert_eq!(json["format"], 1);
+    let engine = json["engine"].as_str().expect("an engine");
+    assert!(version.stdout.starts_with(engine), "{version:?}");
     assert_eq!(bed.run(&["graed"]).code, Some(2));
     assert_eq!(bed.run(&["grade"]).code, Some(2));
     let ran = bed.run(&["grade", "--help"]);

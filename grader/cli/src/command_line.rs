@@ -2,17 +2,16 @@
 
 use std::ffi::OsStr;
 use std::process::ExitCode;
-use std::sync::LazyLock;
 
 use clap::{Parser, Subcommand};
-use kinemark_course::staffed_lab::engine_id;
 
+use crate::build_info;
 use crate::commands::{
     autograder, compare, completions, course_check, course_explain, course_forget, course_grade,
     course_page, course_regrade, course_release, course_status, doctor, grade, hint, lab_check,
-    lab_draws, lab_fill, lab_list, lab_new, lab_pack, lab_schema, lab_variant, log_export, new,
-    robot_convert, robot_eval, robot_response, robot_show, scene_check, submit, verify, view,
-    watch,
+    lab_draws, lab_fill, lab_list, lab_new, lab_pack, lab_schema, lab_variant, log_export, man,
+    new, robot_convert, robot_eval, robot_response, robot_show, scene_check, submit, verify,
+    version, view, watch,
 };
 use crate::failure::Failure;
 use crate::typed_words::ColorArgs;
@@ -20,7 +19,7 @@ use crate::worker;
 
 /// Grades robotics coursework: the same bits everywhere, every lost point explained. Without a command it lists the labs.
 #[derive(Debug, Parser)]
-#[command(name = "kinemark", version = version(), max_term_width = 100)]
+#[command(name = "kinemark", version = build_info::version(), max_term_width = 100)]
 #[command(args_conflicts_with_subcommands = true)]
 #[command(after_help = "Start with `kinemark new 00-step-response`.\n\
     Exit codes: 0 full marks or done, 1 points lost or answers with errors, 2 usage, 3 the lab, robot or scene is broken, \
@@ -32,18 +31,6 @@ pub(crate) struct CommandLine {
     color: ColorArgs,
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
-}
-
-/// The version, and the digest of the engine's sources: what a course names as the engine that grades.
-fn version() -> &'static str {
-    static VERSION: LazyLock<String> = LazyLock::new(|| {
-        let engine = engine_id();
-        engine
-            .strip_prefix("kinemark ")
-            .unwrap_or(&engine)
-            .to_owned()
-    });
-    &VERSION
 }
 
 #[derive(Debug, Subcommand)]
@@ -73,6 +60,8 @@ pub(crate) enum Command {
     Course(CourseCommand),
     Doctor(doctor::Args),
     Completions(completions::Args),
+    Man(man::Args),
+    Version(version::Args),
     /// Runs a submission for another process; not for people
     #[command(hide = true)]
     Worker(worker::Args),
@@ -161,6 +150,8 @@ impl CommandLine {
             Command::Course(CourseCommand::Status(args)) => course_status::run(&args),
             Command::Doctor(args) => doctor::run(&args),
             Command::Completions(args) => completions::run(&args),
+            Command::Man(args) => man::run(&args),
+            Command::Version(args) => version::run(&args),
             // it never comes here: `main` starts it before any thread
             Command::Worker(args) => Ok(worker::serve(&args)),
             Command::Autograder(args) => autograder::run(&args),

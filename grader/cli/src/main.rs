@@ -11,6 +11,7 @@ use crate::error_record::ErrorRecord;
 mod bands_page;
 mod beneath;
 mod brief_plots;
+mod build_info;
 mod chosen_variant;
 mod command_line;
 mod commands;
