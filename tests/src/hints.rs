@@ -139,7 +139,7 @@ fn a_grade_asks_and_names_the_command_that_goes_on() {
     assert_eq!(ran.code, Some(0), "{ran:?}");
     // unfolding changes nothing of it
     shown(&bed, &["fk/near", "--all"]);
-    let again = bed.run(&["grade", LAB, "submission.rhai"]).stdout;
+    let again = bed.run(&["grade", LAB, "submission.rhai", "-v"]).stdout;
     assert_eq!(again, grade);
     no_file_has(&bed, "out", &parts);
 }

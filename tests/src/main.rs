@@ -51,6 +51,7 @@ mod lab_audit;
 mod lab_check_options;
 mod lab_truths;
 mod linkage_lab;
+mod logged;
 mod mesh_labs;
 mod module_order;
 mod module_reports;

@@ -1,5 +1,6 @@
 //! A lab whose robot has a mesh: graded, copied with its report, verified, run again from the copy, and distinguished when the mesh changes.
 
+use crate::logged::messages;
 use crate::robot_files::CUBE;
 use crate::testbed::{TestBed, files_below, root};
 
@@ -49,15 +50,10 @@ fn a_report_takes_the_meshes_along() {
         .iter()
         .find(|(path, _)| path == "move/run.mcap")
         .expect("a log");
-    let triangles = mcap::MessageStream::new(log).expect("MCAP").any(|message| {
-        let message = message.expect("message");
-        let text = String::from_utf8_lossy(&message.data);
-        message
-            .channel
-            .schema
-            .as_ref()
-            .is_some_and(|s| s.name == "foxglove.SceneUpdate")
-            && text.contains("\"triangles\":[{")
+    let triangles = messages(log).into_iter().any(|(topic, scene)| {
+        let entities = scene["entities"].as_array().into_iter().flatten();
+        let mut entities = entities.map(|entity| entity["triangles"].as_array());
+        topic == "/scene" && entities.any(|triangles| triangles.is_some_and(|t| !t.is_empty()))
     });
     assert!(triangles, "no triangles in the log");
     let verify = || bed.run(&["verify", "out", "--practice"]);

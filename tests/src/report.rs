@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::logged::messages;
 use crate::testbed::{TestBed, files_below};
 
 const GRADE: [&str; 3] = ["grade", "01-kinematics", "submission.rhai"];
@@ -21,11 +22,8 @@ fn replays(page: &str) -> Vec<Value> {
 /// Topics of a log, with the entities of the reference's scene.
 fn log(bytes: &[u8]) -> (Vec<String>, Vec<String>) {
     let (mut topics, mut entities) = (Vec::new(), Vec::new());
-    for message in mcap::MessageStream::new(bytes).expect("MCAP") {
-        let message = message.expect("message");
-        let topic = message.channel.topic.clone();
+    for (topic, scene) in messages(bytes) {
         if topic == "/reference/scene" {
-            let scene: Value = serde_json::from_slice(&message.data).expect("JSON");
             let shown = scene["entities"].as_array().expect("entities");
             entities.extend(
                 shown

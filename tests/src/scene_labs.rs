@@ -3,6 +3,7 @@
 
 use serde_json::Value as Json;
 
+use crate::logged;
 use crate::testbed::{TestBed, files_below};
 
 const LAB: &str = r#"
@@ -124,10 +125,8 @@ fn a_lab_with_a_scene_is_graded_logged_copied_and_verified() {
     let log = file("knock/run.mcap").expect("a log");
     let mut can_z = Vec::new();
     let mut lines = String::new();
-    for message in mcap::MessageStream::new(log).expect("MCAP") {
-        let message = message.expect("message");
-        let content: Json = serde_json::from_slice(&message.data).expect("JSON");
-        match message.channel.topic.as_str() {
+    for (topic, content) in logged::messages(log) {
+        match topic.as_str() {
             "/tf" => {
                 let transforms = content["transforms"].as_array().expect("transforms");
                 let can = transforms

@@ -2,6 +2,7 @@
 
 use serde_json::Value as Json;
 
+use crate::logged::messages;
 use crate::testbed::{TestBed, files_below};
 
 const SENSORS: &str = r#"
@@ -114,10 +115,8 @@ fn sensors_reach_the_submission_the_digests_and_the_log() {
         .expect("a log");
     let mut readings = Vec::new();
     let (mut shoulder, mut elbow, mut effort) = (Vec::new(), Vec::new(), Vec::new());
-    for message in mcap::MessageStream::new(log).expect("MCAP") {
-        let message = message.expect("message");
-        let content: Json = serde_json::from_slice(&message.data).expect("JSON");
-        match message.channel.topic.as_str() {
+    for (topic, content) in messages(log) {
+        match topic.as_str() {
             "/sensors" => readings.push(content),
             "/signals" => {
                 shoulder.push(content["q_shoulder"].as_f64().expect("q"));

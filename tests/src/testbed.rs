@@ -147,7 +147,9 @@ impl TestBed {
             .current_dir(&self.folder)
             .args(args)
             .env("NO_COLOR", "1")
-            .env_remove("KINEMARK_SALT");
+            .env_remove("KINEMARK_SALT")
+            .env_remove("KINEMARK_LABS")
+            .env_remove("KINEMARK_REFERENCE");
         command
     }
 

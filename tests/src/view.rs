@@ -238,7 +238,7 @@ fn a_program_gets_folder_and_address_as_json() {
     assert!(serving.root.len() > 16, "{address}");
     assert_eq!(
         line,
-        serde_json::json!({ "folder": "out", "address": address })
+        serde_json::json!({ "format": 1, "folder": "out", "address": address })
     );
     assert_eq!(serving.get("/report.html").code, 200);
 }

@@ -10,7 +10,7 @@ use kinemark_grader::task::problem::{LabError, LoadError};
 use crate::disk::{self, Folder};
 use crate::failure::{Failure, USAGE};
 use crate::labs_folder::{self, LabsFolderArgs};
-use crate::staff_folder::{self, StaffArgs, StaffPart};
+use crate::staff_folder::{self, STAFF, StaffArgs, StaffPart};
 use crate::whose_labs::Found;
 use crate::{enclosing_course, failure, output, typed_path};
 
@@ -21,7 +21,12 @@ pub(crate) struct VariantArgs {
     #[arg(long, value_name = "FILE", conflicts_with = "student")]
     pub(crate) variant: Option<PathBuf>,
     /// Generate this student's variant from the course's salt: for course staff
-    #[arg(long, value_name = "ID", conflicts_with = "practice")]
+    #[arg(
+        long,
+        value_name = "ID",
+        conflicts_with = "practice",
+        help_heading = STAFF
+    )]
     pub(crate) student: Option<String>,
 }
 
@@ -220,7 +225,7 @@ pub(crate) fn salt(
     lab: &str,
     staff: &StaffPart,
 ) -> Result<Option<String>, Failure> {
-    let given = staff.salt.as_deref();
+    let given = staff.salt();
     Ok(match reference {
         Some(reference) => Staff::salt(reference, lab, given)?,
         None => given.map(str::to_owned),

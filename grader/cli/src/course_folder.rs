@@ -171,10 +171,7 @@ impl Course {
         }
         let (labs, labs_folder) = labs_folder::open_from(&from, &self.root)?;
         let reference = self.file.reference.as_ref();
-        let part = StaffPart {
-            reference: reference.map(|folder| self.root.join(folder)),
-            salt: None,
-        };
+        let part = StaffPart::in_folder(reference.map(|folder| self.root.join(folder)));
         let help = "write `reference = \"FOLDER\"` of the course staff's part into course.toml";
         let reference = staff_folder::part(&part, labs_folder.as_deref(), help)?;
         Ok((labs, reference))

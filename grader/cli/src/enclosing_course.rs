@@ -50,9 +50,9 @@ pub(crate) fn fill(
         part.reference = Some(root.join(folder));
         filled.push("staff part");
     }
-    if part.salt.is_none() {
-        part.salt = salt(&root, &file)?;
-        if part.salt.is_some() {
+    if part.salt().is_none() {
+        part.set_salt(salt(&root, &file)?);
+        if part.salt().is_some() {
             filled.push("salt");
         }
     }

@@ -261,7 +261,8 @@ mod tests {
             let text = std::fs::read_to_string(&path).expect("text");
             let is_part = |letter: char| letter.is_ascii_lowercase() || matches!(letter, '_' | ':');
             for begin in ["code(", "\""] {
-                let found = text.split(begin).skip(1).map(|rest| {
+                let found = text.match_indices(begin).map(|(at, _)| {
+                    let rest = &text[at + begin.len()..];
                     let end = rest.find(|letter| !is_part(letter)).unwrap_or(rest.len());
                     (&rest[..end], &rest[end..])
                 });

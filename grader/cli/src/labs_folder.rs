@@ -7,13 +7,19 @@ use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use rust_embed::Embed;
 
 use crate::disk::Folder;
+use crate::environment;
 use crate::failure::Failure;
 
 /// Which folder the labs come from.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct LabsFolderArgs {
-    /// Folder of the labs [default: a `labs` folder here or above, else the built-in labs]
-    #[arg(long, value_name = "DIR")]
+    /// Folder of the labs [default: a `labs` folder here or above, else the built-in labs] [env: KINEMARK_LABS]
+    #[arg(
+        long,
+        value_name = "DIR",
+        default_value = environment::labs(),
+        hide_default_value = true
+    )]
     pub(crate) labs: Option<PathBuf>,
 }
 

@@ -20,6 +20,7 @@ mod course_intake;
 mod course_log;
 mod disk;
 mod enclosing_course;
+mod environment;
 mod error_record;
 mod failure;
 mod fresh_folder;

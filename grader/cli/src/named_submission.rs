@@ -1,14 +1,17 @@
 //! The submission that a person names: a script, a module, or a folder, a project, an archive or a hand-in file with one in it. What is none of them gets a
 //! grade all the same, `did-not-build` with what to do: a report of an earlier file must not stand in for it.
 
+use std::io::Read;
 use std::path::Path;
 
 use kinemark_course::hand_in_file::HandInFile;
+use kinemark_course::language::MODULE_FILE;
 use kinemark_course::layout::PersonFiles;
 use kinemark_course::selection::{MOST_HAND_IN_BYTES, MOST_SUBMISSION_BYTES};
 use kinemark_course::submission_file::{Unclear, submission_of};
 use kinemark_course::submission_source::SubmissionSource;
 use kinemark_course::tree::{Limits, Tree};
+use kinemark_course::working_folder::SUBMISSION_FILE;
 use kinemark_grader::submission::not_text::absent;
 
 use crate::failure::Failure;
@@ -21,6 +24,9 @@ use crate::{disk, typed_path};
 /// Exit code 2 for a path at which nothing is or in which a folder is a link, or for what can be no submission: a pipe, a TOML file, a
 /// file of more than a megabyte.
 pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> {
+    if is_input(path) {
+        return of_input(std::io::stdin().lock());
+    }
     let name = path.file_name().unwrap_or(path.as_os_str());
     let name = name.to_string_lossy();
     let missing = |what: &str, help: &str| SubmissionSource::new(&name, &absent(what, help));
@@ -84,6 +90,36 @@ pub(crate) fn read(path: &Path, lab: &str) -> Result<SubmissionSource, Failure> 
     Ok(SubmissionSource::new(&name, &bytes))
 }
 
+/// Whether a path stands for standard input.
+pub(crate) fn is_input(path: &Path) -> bool {
+    path == Path::new("-")
+}
+
+/// The submission that `input` holds: a module if it begins as one, else a script.
+fn of_input(input: impl Read) -> Result<SubmissionSource, Failure> {
+    let mut bytes = Vec::new();
+    let read = input
+        .take(MOST_SUBMISSION_BYTES + 1)
+        .read_to_end(&mut bytes);
+    read.map_err(|error| {
+        Failure::usage(
+            format!("standard input cannot be read: {}", disk::plain(&error)),
+            "name the file of the submission",
+        )
+    })?;
+    if bytes.len() as u64 > MOST_SUBMISSION_BYTES {
+        return Err(Failure::usage(
+            format!("standard input has more than {MOST_SUBMISSION_BYTES} bytes"),
+            "send the submission alone: a script, or a module",
+        ));
+    }
+    let name = match bytes.starts_with(b"\0asm") {
+        true => MODULE_FILE,
+        false => SUBMISSION_FILE,
+    };
+    Ok(SubmissionSource::new(name, &bytes))
+}
+
 /// Whether a part of a path is all of it.
 fn is_last(part: &Path, path: &Path) -> bool {
     part.components().count() >= path.components().count()
@@ -96,4 +132,21 @@ fn has_ending(path: &Path, endings: &[&str]) -> bool {
         known.any(|known| ending.eq_ignore_ascii_case(known))
     };
     path.is_file() && path.extension().is_some_and(is_one)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn standard_input_is_a_script_or_a_module_of_a_limited_size() {
+        let read = |bytes: &[u8]| {
+            of_input(bytes).map(|submission| submission.submission.name().to_owned())
+        };
+        assert_eq!(read(b"fn control() {}").expect("read"), SUBMISSION_FILE);
+        assert_eq!(read(b"\0asm\x01\0\0\0").expect("read"), MODULE_FILE);
+        let most = usize::try_from(MOST_SUBMISSION_BYTES).expect("a size");
+        assert!(read(&vec![b' '; most]).is_ok());
+        assert!(read(&vec![b' '; most + 1]).is_err());
+    }
 }

@@ -128,11 +128,13 @@ pub(crate) fn files(
     let lab_files: Vec<(String, Vec<u8>)> = copies
         .map(|(path, bytes)| (path.to_owned(), bytes.to_owned()))
         .collect();
-    let module_sources: Vec<(String, Vec<u8>)> = submission
+    let mut module_sources: Vec<(String, Vec<u8>)> = submission
         .sources
         .iter()
         .map(|file| (file.path.clone(), file.bytes.clone()))
         .collect();
+    // in the order in which a report lists them, whichever way they were handed in
+    module_sources.sort();
     let own_robots = lab.tasks.iter().filter_map(|task| {
         let own = task.own.as_ref()?;
         Some((task.name.as_str(), own.robot_file.source().text()))

@@ -6,7 +6,8 @@ use kinemark_grader::audit;
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::task::files::Files;
 
-use crate::disk::Folder;
+use crate::disk::{self, Folder};
+use crate::environment;
 use crate::failure::Failure;
 
 /// Which part of the course staff takes part in grading.
@@ -15,26 +16,82 @@ pub(crate) struct StaffArgs {
     #[command(flatten)]
     pub(crate) part: StaffPart,
     /// Do not use the course staff's files, as for students
-    #[arg(long, conflicts_with = "reference")]
+    #[arg(long, conflicts_with = "reference", help_heading = STAFF)]
     pub(crate) practice: bool,
 }
 
 /// Where the course staff's part is, and its salt.
 #[derive(Debug, Clone, clap::Args)]
 pub(crate) struct StaffPart {
-    /// Folder of the course staff's part [default: `reference` beside the labs folder]
-    #[arg(long, value_name = "DIR")]
+    /// Folder of the course staff's part [default: `reference` beside the labs folder] [env: KINEMARK_REFERENCE]
+    #[arg(
+        long,
+        value_name = "DIR",
+        default_value = environment::reference(),
+        hide_default_value = true,
+        help_heading = STAFF
+    )]
     pub(crate) reference: Option<PathBuf>,
     /// The course's salt, for hidden cases and variants, instead of the one in hidden.toml [env: KINEMARK_SALT]
     #[arg(
-        long,
+        long = "salt",
         value_name = "TEXT",
         env = SALT,
         hide_env = true,
-        value_parser = salt
+        value_parser = salt,
+        help_heading = STAFF
     )]
-    pub(crate) salt: Option<String>,
+    typed_salt: Option<String>,
+    /// A file with the salt in its one line, which no list of processes shows; it counts before --salt
+    #[arg(
+        long,
+        value_name = "FILE",
+        value_parser = salt_of_file,
+        help_heading = STAFF
+    )]
+    salt_file: Option<String>,
 }
+
+impl StaffPart {
+    /// The part in a folder, without a salt of its own.
+    pub(crate) fn in_folder(reference: Option<PathBuf>) -> Self {
+        Self {
+            reference,
+            typed_salt: None,
+            salt_file: None,
+        }
+    }
+
+    /// The salt, if one is given.
+    pub(crate) fn salt(&self) -> Option<&str> {
+        self.salt_file.as_deref().or(self.typed_salt.as_deref())
+    }
+
+    /// Gives the part a salt.
+    pub(crate) fn set_salt(&mut self, salt: Option<String>) {
+        self.salt_file = salt;
+    }
+}
+
+/// Above this a file is no line.
+const MOST_SALT_BYTES: u64 = 1 << 16;
+
+/// The salt in the file at `path`.
+fn salt_of_file(path: &str) -> Result<String, String> {
+    let bytes = disk::bytes_of(Path::new(path), MOST_SALT_BYTES)
+        .map_err(|why| format!("the file cannot be read: {why}"))?;
+    let text = String::from_utf8(bytes).map_err(|_| "the file is not UTF-8 text".to_owned())?;
+    match text.trim() {
+        "" => Err("the file is empty: write the salt into it".to_owned()),
+        line if line.lines().count() > 1 => {
+            Err("the file has several lines, and a salt is one".to_owned())
+        }
+        line => Ok(line.to_owned()),
+    }
+}
+
+/// What the help calls the options of course staff.
+pub(crate) const STAFF: &str = "Options for course staff";
 
 /// The variable that holds a salt.
 const SALT: &str = "KINEMARK_SALT";

@@ -60,9 +60,8 @@ pub(crate) fn lab_and_submission(
 }
 
 fn is_program(word: &str) -> bool {
-    [".rhai", ".wasm", ".txt"]
-        .iter()
-        .any(|ending| word.ends_with(ending))
+    let endings = [".rhai", ".wasm", ".txt"];
+    word == "-" || endings.iter().any(|ending| word.ends_with(ending))
 }
 
 /// Where the report on a submission goes unless another folder is named: beside it where `kinemark new` has made its folder, so that

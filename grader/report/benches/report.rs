@@ -6,7 +6,7 @@ use std::hint::black_box;
 use criterion::{Criterion, criterion_group, criterion_main};
 use kinemark_grader::record::sample;
 use kinemark_report::log::{Attachment, mcap};
-use kinemark_report::output::LogRequest;
+use kinemark_report::log_request::LogRequest;
 use kinemark_report::{
     html::{PageExtras, html},
     plot::plots,

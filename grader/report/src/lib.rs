@@ -19,6 +19,7 @@ pub mod html;
 mod initial_contact;
 #[cfg(feature = "log")]
 pub mod log;
+pub mod log_request;
 mod measured;
 pub mod moment;
 pub mod output;

@@ -15,11 +15,10 @@ use kinemark_grader::submission::not_text::absent;
 use kinemark_grader::task::files::Files;
 
 use kinemark_report::html::Earlier;
-use kinemark_report::output::{
-    Encoding, LogRequest, MOST_SIGNAL_RATE_HZ, PAGE_FILE, RECORD_FILE, ReportRequest,
-    STORYBOARD_FILE,
-};
+use kinemark_report::log_request::{Encoding, LogRequest, MOST_SIGNAL_RATE_HZ};
+use kinemark_report::output::{PAGE_FILE, RECORD_FILE, ReportRequest, STORYBOARD_FILE};
 use kinemark_report::short_text::short_text;
+use kinemark_report::storyboard::has_storyboard;
 use kinemark_report::text::{Detail, detailed};
 use kinemark_report::visible::visible;
 use serde::Serialize;
@@ -31,7 +30,7 @@ use crate::history::History;
 use crate::practice_variants::{PracticeVariants, try_variants};
 use crate::project::{Built, NoModule, Project};
 use crate::sandbox::SandboxArgs;
-use crate::staff_folder::{self, StaffArgs};
+use crate::staff_folder::{self, STAFF, StaffArgs};
 use crate::worker::WorkerHost;
 use crate::{
     handed_out_lab, interrupt, labs_folder, named_submission, output, report_folder, working_lab,
@@ -47,7 +46,8 @@ use crate::{
     kinemark grade --since out --out better\n  \
     kinemark grade -v\n  \
     kinemark grade --format short\n  \
-    kinemark grade --build\n\n\
+    kinemark grade --build\n  \
+    kinemark grade 01-kinematics - < submission.rhai\n\n\
     In a folder of `kinemark new`, kinemark.toml names the lab. In practice a file variant.toml beside the submission is used unless --variant is given.\n\
     With the course staff's part only --variant and --student give a variant, and labs that may have been handed in are refused: docs/ta-guide.md.\n\
     --build runs what the project's author wrote, so it is refused with the course staff's part, and in the folder of a course. A build that \
@@ -60,7 +60,7 @@ use crate::{
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it, or the beginning of its name [default: that of the folder]
     pub(crate) lab: Option<String>,
-    /// The submission: a script, a module, or a folder, a ZIP archive or a hand-in file with one in it [default: submission.rhai, or the module of the project here]
+    /// The submission: a script, a module, or a folder, a ZIP archive or a hand-in file with one in it; `-` reads a script or a module from standard input [default: submission.rhai, or the module of the project here]
     pub(crate) submission: Option<PathBuf>,
     /// Build the project of the submission first: runs the compiler, and a build script if the project has one
     #[arg(long)]
@@ -104,7 +104,7 @@ pub(crate) struct Args {
     pub(crate) sandbox: SandboxArgs,
     /// Overlay the reference solution's motion on the run, in the report and its logs: for course staff. Its joint motion is the
     /// answer; do not give such a report to students
-    #[arg(long, conflicts_with = "practice")]
+    #[arg(long, conflicts_with = "practice", help_heading = STAFF)]
     pub(crate) reference_overlay: bool,
     #[command(flatten)]
     pub(crate) from: LabArgs,
@@ -278,7 +278,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         }
         return Err(unwritten);
     }
-    let is_practice = grade.mode == GradeMode::Practice;
+    let is_practice =
+        grade.mode == GradeMode::Practice && !named_submission::is_input(&request.submission);
     let history = is_practice.then(|| History::beside(&request.submission));
     let history = history.flatten();
     let printed = printed.and_then(|()| {
@@ -384,7 +385,9 @@ pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
     let args = request.args;
     args.sandbox.demand()?;
     refuse_pixels_without_png(args)?;
-    let chosen = chosen_variant::choose(&request.lab, &args.from, Some(&request.submission))?;
+    // nothing lies beside what is read from standard input
+    let beside = (!named_submission::is_input(&request.submission)).then_some(&*request.submission);
+    let chosen = chosen_variant::choose(&request.lab, &args.from, beside)?;
     let (lab, mut note) = (chosen.lab, chosen.note);
     let default = Lab::load(chosen.files.as_ref(), &lab.name)?;
     for warning in handed_out_lab::warnings(chosen.files.as_ref(), &default, false) {
@@ -536,10 +539,10 @@ fn storyboards(out: &Path, graded: &GradedRun) -> String {
     let mut ran = graded
         .runs
         .iter()
-        .filter(|run| !run.trace.is_empty())
+        .filter(|run| has_storyboard(run))
         .peekable();
     if ran.peek().is_none() {
-        return "storyboard: none, because no motion task was run\n".to_owned();
+        return "storyboard: none, because the arm moves in no task\n".to_owned();
     }
     let lines = ran.map(|run| {
         let path = out.join(&run.task).join(STORYBOARD_FILE);
@@ -549,7 +552,7 @@ fn storyboards(out: &Path, graded: &GradedRun) -> String {
 }
 
 fn staff_of(reference: &dyn Files, lab: &Lab, args: &StaffArgs) -> Result<Option<Staff>, Failure> {
-    let staff = staff_folder::staff(reference, lab, args.part.salt.as_deref())?;
+    let staff = staff_folder::staff(reference, lab, args.part.salt())?;
     if staff.is_none() && args.part.reference.is_some() {
         return Err(Failure::usage(
             staff_folder::no_solution(reference, lab),

@@ -58,8 +58,13 @@ pub(crate) struct Args {
     /// Print what was tried as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Folder of the course staff's part [default: `reference` beside the labs folder]
-    #[arg(long, value_name = "DIR")]
+    /// Folder of the course staff's part [default: `reference` beside the labs folder] [env: KINEMARK_REFERENCE]
+    #[arg(
+        long,
+        value_name = "DIR",
+        default_value = crate::environment::reference(),
+        hide_default_value = true
+    )]
     pub(crate) reference: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) labs_folder: LabsFolderArgs,
@@ -76,10 +81,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     for warning in lab.robot.warnings() {
         failure::warn_alone(&format!("robot `{}`: {warning}", lab.robot.name()));
     }
-    let from = StaffPart {
-        reference: args.reference.clone(),
-        salt: None,
-    };
+    let from = StaffPart::in_folder(args.reference.clone());
     let help = "give the course staff's folder";
     let reference = staff_folder::part(&from, labs_folder.as_deref(), help)?.ok_or_else(|| {
         Failure::usage(

@@ -74,7 +74,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let variant = chosen_variant::of_student(&lab, Some(&reference), &args.staff, student)?;
         lab = Lab::load_variant(files.as_ref(), &args.lab, Some(&variant))?;
     }
-    let staff = staff_folder::staff(&reference, &lab, args.staff.salt.as_deref())?;
+    let staff = staff_folder::staff(&reference, &lab, args.staff.salt())?;
     let staff = staff.ok_or_else(|| {
         Failure::usage(
             staff_folder::no_solution(&reference, &lab),

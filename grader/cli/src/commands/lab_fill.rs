@@ -42,8 +42,13 @@ pub(crate) struct Args {
     /// Print what was written as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Folder of the course staff's part [default: `reference` beside the labs folder]
-    #[arg(long, value_name = "DIR")]
+    /// Folder of the course staff's part [default: `reference` beside the labs folder] [env: KINEMARK_REFERENCE]
+    #[arg(
+        long,
+        value_name = "DIR",
+        default_value = crate::environment::reference(),
+        hide_default_value = true
+    )]
     pub(crate) reference: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) labs_folder: LabsFolderArgs,
@@ -179,10 +184,7 @@ fn staff(args: &Args, lab: &Lab, labs_folder: &Path) -> Result<Staff, Failure> {
 }
 
 fn folder_of_staff(args: &Args, labs_folder: &Path) -> Result<Folder, Failure> {
-    let from = StaffPart {
-        reference: args.reference.clone(),
-        salt: None,
-    };
+    let from = StaffPart::in_folder(args.reference.clone());
     let help = "give the course staff's folder";
     staff_folder::part(&from, Some(labs_folder), help)?.ok_or_else(|| {
         Failure::usage(

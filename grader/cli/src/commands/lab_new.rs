@@ -60,8 +60,13 @@ pub(crate) struct Args {
     /// Print what was written as JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Folder of the course staff's part [default: `reference` beside the labs folder]
-    #[arg(long, value_name = "DIR")]
+    /// Folder of the course staff's part [default: `reference` beside the labs folder] [env: KINEMARK_REFERENCE]
+    #[arg(
+        long,
+        value_name = "DIR",
+        default_value = crate::environment::reference(),
+        hide_default_value = true
+    )]
     pub(crate) reference: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) labs_folder: LabsFolderArgs,

@@ -142,7 +142,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         Audience::Students => for_students(args, packed, reference.as_ref())?,
         Audience::Staff => {
             let reference = required(reference.as_ref())?;
-            pack::for_staff(packed, reference, args.staff.salt.as_deref()).map_err(failed)?
+            pack::for_staff(packed, reference, args.staff.salt()).map_err(failed)?
         }
         Audience::Gradescope => for_gradescope(args, packed, required(reference.as_ref())?)?,
     };
@@ -211,7 +211,7 @@ fn for_students(
         let variant = chosen_variant::of_student(lab, reference, &args.staff, student.as_str())?;
         let mut variant = Lab::load_variant(packed.files, &lab.name, Some(&variant))?;
         if let Some(reference) = reference {
-            variant.practice = own_practice(&variant, reference, args.staff.salt.as_deref())?;
+            variant.practice = own_practice(&variant, reference, args.staff.salt())?;
         }
         variants.push(variant);
     }
@@ -220,7 +220,7 @@ fn for_students(
         false => Vec::new(),
     };
     let content = pack::for_students(packed, &variants, &solution).map_err(failed)?;
-    let mut salts: Vec<String> = args.staff.salt.clone().into_iter().collect();
+    let mut salts: Vec<String> = args.staff.salt().map(str::to_owned).into_iter().collect();
     let secrets = match reference {
         Some(reference) => {
             salts.extend(Staff::salt(reference, &lab.name, None)?);
@@ -314,7 +314,7 @@ fn for_gradescope(
     reference: &Folder,
 ) -> Result<Vec<ArchiveFile>, Failure> {
     let lab = packed.lab;
-    let salt = args.staff.salt.as_deref();
+    let salt = args.staff.salt();
     // a broken part is reported now, and not by every upload
     let Some(staff) = staff_folder::staff(reference, lab, salt)? else {
         return Err(Failure::usage(

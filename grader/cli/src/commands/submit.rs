@@ -161,10 +161,7 @@ fn practice(args: &Args) -> LabArgs {
             student: None,
         },
         staff: StaffArgs {
-            part: StaffPart {
-                reference: None,
-                salt: None,
-            },
+            part: StaffPart::in_folder(None),
             practice: true,
         },
     }

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use crate::failure::{Failure, LOST, PARTLY_COMPARED};
 use crate::labs_folder::LabsFolderArgs;
 use crate::sandbox::SandboxArgs;
-use crate::staff_folder::StaffArgs;
+use crate::staff_folder::{STAFF, StaffArgs};
 use crate::verification::{Course, Outcome, Verification, Wanted};
 use crate::{interrupt, output, report_folder};
 
@@ -29,10 +29,15 @@ pub(crate) struct Args {
     #[arg(long)]
     pub(crate) json: bool,
     /// Refuse a practice report: for course staff
-    #[arg(long, conflicts_with = "practice")]
+    #[arg(long, conflicts_with = "practice", help_heading = STAFF)]
     pub(crate) graded: bool,
     /// Compare the variant with that of this student, whoever the report says it is: for course staff
-    #[arg(long, value_name = "ID", conflicts_with = "practice")]
+    #[arg(
+        long,
+        value_name = "ID",
+        conflicts_with = "practice",
+        help_heading = STAFF
+    )]
     pub(crate) student: Option<String>,
     #[command(flatten)]
     pub(crate) sandbox: SandboxArgs,

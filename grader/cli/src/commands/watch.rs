@@ -19,7 +19,7 @@ use crate::failure::{self, Failure};
 use crate::project::Project;
 use crate::saves::{Saves, WatchEvent};
 use crate::serve::{self, ServeArgs, Server};
-use crate::{interrupt, output};
+use crate::{interrupt, named_submission, output};
 
 /// Grade on every save, and keep the report open
 #[derive(Debug, clap::Args)]
@@ -55,6 +55,12 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let _ = on_stop.send(WatchEvent::Stop);
     });
     let mut request = args.grade.filled()?;
+    if named_submission::is_input(&request.submission) {
+        return Err(Failure::usage(
+            "nothing is saved to standard input, so there is nothing to watch".to_owned(),
+            "name the file of the submission, or grade it once: `kinemark grade LAB -`",
+        ));
+    }
     if request.build == Build::No {
         request.build = Build::InPractice;
     }

@@ -77,7 +77,7 @@ impl Course {
                 "the course staff's part was not found; give --reference DIR".to_owned()
             }));
         };
-        match staff_folder::staff(reference, lab, part.salt.as_deref())? {
+        match staff_folder::staff(reference, lab, part.salt())? {
             Some(staff) => Ok(Ok(staff)),
             None if part.reference.is_some() => Err(Failure::usage(
                 staff_folder::no_solution(reference, lab),

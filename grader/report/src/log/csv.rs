@@ -13,6 +13,7 @@ use super::columns::{Budget, Columns, MOST_COLUMNS, MOST_NAME, TIME, TooWide, pa
 use super::json::Json;
 use super::protobuf;
 use super::read::{LogMessage, ReadError, messages, most_of};
+use super::schema::well_known;
 
 /// Tables that are larger, all together, open nowhere.
 const MOST_TABLES_BYTES: u64 = 2 << 30;
@@ -239,10 +240,11 @@ impl<W: Write> Write for Bounded<'_, W> {
     }
 }
 
-/// What a JSON schema says of columns; none of one that is not read.
+/// What a JSON schema says of columns, or that of Foxglove's messages by their name; none of one that is not read.
 fn described(schema: &Schema<'_>, columns: &[Arc<str>]) -> BTreeMap<Arc<str>, String> {
     let root: serde_json::Value = match schema.encoding.as_str() {
         "jsonschema" => serde_json::from_slice(&schema.data).unwrap_or_default(),
+        "protobuf" => well_known(&schema.name),
         _ => return BTreeMap::new(),
     };
     let described = columns.iter().filter_map(|column| {

@@ -8,7 +8,7 @@ use mcap::records::{MessageHeader, Metadata};
 use mcap::{Compression, WriteOptions};
 
 use super::messages::Messages;
-use crate::output::LogRequest;
+use crate::log_request::LogRequest;
 use crate::visible::visible;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::record::graded::TaskRun;
@@ -158,7 +158,7 @@ mod tests {
     use super::super::json::Json;
     use super::super::protobuf;
     use super::*;
-    use crate::output::Encoding;
+    use crate::log_request::Encoding;
     use kinemark_grader::record::sample;
 
     fn written(run: &TaskRun) -> Vec<u8> {

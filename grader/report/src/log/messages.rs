@@ -7,7 +7,7 @@ use super::mcap::LogError;
 use super::message::Flat;
 use super::protobuf;
 use super::schema::{self, Schema};
-use crate::output::{Encoding, LogRequest};
+use crate::log_request::{Encoding, LogRequest};
 use kinemark_grader::record::graded::TaskRun;
 
 /// A channel to be: its topic and the schema of its messages.

@@ -178,14 +178,12 @@ mod tests {
         // many values in few bytes
         let line = foxglove::messages::SceneUpdate::get_schema().unwrap();
         let line = described("foxglove.LinePrimitive", &line.data).unwrap();
+        // field 8, packed numbers of four bytes
         let mut packed = vec![0x42];
-        let count = MOST_VALUES + 1;
-        packed.extend([
-            (count & 0x7f) as u8 | 0x80,
-            (count >> 7 & 0x7f) as u8 | 0x80,
-            (count >> 14) as u8,
-        ]);
-        packed.resize(packed.len() + count, 0);
+        let bytes = 4 * (MOST_VALUES + 1);
+        packed.extend([bytes, bytes >> 7].map(|part| (part & 0x7f) as u8 | 0x80));
+        packed.push((bytes >> 14) as u8);
+        packed.resize(packed.len() + bytes, 0);
         assert!(parse(&line, &packed).unwrap_err().contains("values"));
     }
 }

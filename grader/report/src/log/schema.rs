@@ -40,8 +40,13 @@ pub(super) fn protobuf<M: Encode>() -> Schema {
 /// The JSON schema of a message of Foxglove's.
 pub(super) fn json_of<M: Encode>() -> Schema {
     let name = M::get_schema().map_or_else(String::new, |schema| schema.name);
-    let schema = WELL_KNOWN.get(&name).cloned().unwrap_or_default();
+    let schema = well_known(&name);
     in_json(name, schema)
+}
+
+/// Foxglove's JSON schema of its messages of a name; null of others.
+pub(super) fn well_known(name: &str) -> Value {
+    WELL_KNOWN.get(name).cloned().unwrap_or_default()
 }
 
 /// Flat numbers with what each is; one that is not finite is left out of its message.

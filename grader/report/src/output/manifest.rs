@@ -5,8 +5,9 @@ use std::io::Read;
 
 use serde::{Deserialize, Serialize};
 
-use super::{LogRequest, OutFile};
+use super::OutFile;
 use crate::html::Earlier;
+use crate::log_request::LogRequest;
 
 /// Its name in the folder.
 pub const FILE: &str = "report.json";

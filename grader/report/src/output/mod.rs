@@ -1,6 +1,5 @@
 //! What a report folder holds: a table with one row per output. Logs and storyboards have files of this folder to themselves.
 
-mod log_request;
 mod manifest;
 mod material;
 #[cfg(feature = "log")]
@@ -8,7 +7,6 @@ mod run_log;
 mod storyboards;
 mod table;
 
-pub use log_request::{Encoding, LogRequest, MOST_SIGNAL_RATE_HZ};
 pub use manifest::{
     FILE as MANIFEST_FILE, Manifest, ManifestError, ReportRequest, digest, digest_of,
 };

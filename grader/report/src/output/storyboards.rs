@@ -2,7 +2,7 @@
 
 use super::material::{Material, OutFile, OutputError};
 use super::table::Output;
-use crate::storyboard::storyboard;
+use crate::storyboard::{has_storyboard, storyboard};
 
 /// The picture in pixels, in the task's folder.
 pub const FILE: &str = "storyboard.png";
@@ -18,7 +18,7 @@ pub(super) const OUTPUT: Output = Output {
 fn files(material: &Material<'_>) -> Result<Vec<OutFile>, OutputError> {
     let mut files = Vec::new();
     let graded = material.graded;
-    for run in graded.runs.iter().filter(|run| !run.trace.is_empty()) {
+    for run in graded.runs.iter().filter(|run| has_storyboard(run)) {
         let mut tasks = graded.grade.tasks.iter();
         let Some(task) = tasks.find(|task| task.name == run.task) else {
             continue;

@@ -53,9 +53,19 @@ pub(crate) struct Chapter {
     pub(crate) svg: String,
 }
 
+/// Whether a run has moments to show: of an arm that stands from its first tick to its last, such as one whose submission stops at once,
+/// all pictures are the same.
+pub fn has_storyboard(run: &TaskRun) -> bool {
+    let trace = &run.trace;
+    let bits = |tick: usize| trace.q.at(tick).iter().map(|q| q.to_bits());
+    let arm_moves = (1..trace.len()).any(|tick| !bits(tick).eq(bits(0)));
+    let touches = !trace.contacts.is_empty();
+    !trace.is_empty() && (arm_moves || touches)
+}
+
 /// The panels of a storyboard one by one; none of a run without a tick.
 pub(crate) fn chapters(run: &TaskRun, grade: &TaskGrade, prefix: &str) -> Vec<Chapter> {
-    if run.trace.is_empty() {
+    if !has_storyboard(run) {
         return Vec::new();
     }
     board(run, grade).chapters(prefix)

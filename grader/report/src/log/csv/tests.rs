@@ -8,7 +8,7 @@ use ::mcap::{Compression, WriteOptions};
 
 use super::*;
 use crate::log::mcap;
-use crate::output::LogRequest;
+use crate::log_request::LogRequest;
 use kinemark_grader::record::sample;
 
 /// A log with messages `(topic, encoding, time, data)`.
@@ -386,7 +386,10 @@ fn columns_are_described_as_the_schema_has_them() {
     assert_eq!(signals["q_shoulder"], "rad");
     assert_eq!(signals["effort_elbow"], "N m");
     let joints = &of("/joint_states").unwrap().described;
-    assert_eq!(joints["joints.elbow.velocity"], "rad/s or m/s");
+    assert_eq!(
+        joints["joints.elbow.velocity"],
+        "Joint velocity. Rad/s for revolute joints, m/s for prismatic joints."
+    );
 }
 
 #[test]
