@@ -35,3 +35,8 @@ for folder in labs/[0-9]*/; do
     shown "$lab-report-390" 300 "$phone"
   } >> docs/gallery/README.md
 done
+
+# the picture of the README: a lost point, and its moment in the replay beside it; points are lost, so the command ends with 1
+lost=tests/submissions/04-knock-with-velocity/cuts-the-corner/submission.rhai
+"$kinemark" grade 04-knock-with-velocity "$lost" --out "$out/lost" >/dev/null || [ $? = 1 ]
+node docs/gallery/draw.mjs "$out/lost/report.html" lost-point '#task-2-check-down' 1440
