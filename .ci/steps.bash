@@ -287,7 +287,7 @@ step_browser_sample() {
   release --version >/dev/null
   export KINEMARK
   KINEMARK=$(realpath "$target/release/kinemark")
-  (cd grader/web && node --test --test-concurrency=2 test/reading.test.mjs test/checks_can_fail.test.mjs test/viewer.test.mjs test/screen.test.mjs test/classes.test.mjs test/kinematics.test.mjs test/briefs.test.mjs)
+  (cd grader/web && node --test --test-concurrency=2 test/reading.test.mjs test/checks_can_fail.test.mjs test/viewer.test.mjs test/docking.test.mjs test/plots.test.mjs test/pace.test.mjs test/views.test.mjs test/left.test.mjs test/screen.test.mjs test/classes.test.mjs test/kinematics.test.mjs test/briefs.test.mjs)
 }
 
 step_browser() {
