@@ -4,7 +4,7 @@ import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
-import * as foxglove from "@foxglove/schemas/jsonschema";
+import foxglove from "@foxglove/schemas/jsonschema.js";
 import Ajv from "ajv";
 import { courseLabs, grade, hardLabs, logsOf, reports, root } from "./graded.mjs";
 import { composed, distance, framesInWorld, inverse, log, poseOf, records } from "./log.mjs";
