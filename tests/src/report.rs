@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use crate::logged::messages;
-use crate::testbed::{TestBed, files_below};
+use crate::testbed::{TestBed, files_below, root};
 
 const GRADE: [&str; 3] = ["grade", "01-kinematics", "submission.rhai"];
 
@@ -164,4 +164,26 @@ fn a_reference_overlay_needs_a_reference() {
         "--practice",
     ]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
+}
+
+/// The page groups by the sentences in which a record says what a check waits for: a check that needs another is in the other's row.
+#[test]
+fn a_check_that_waits_for_another_is_in_its_row_of_costs() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let submission = root().join("tests/submissions/04-knock-with-velocity/cuts-the-corner");
+    let submission = submission.join("submission.rhai");
+    std::fs::copy(submission, bed.path("submission.rhai")).expect("copied");
+    let ran = bed.run(&["grade", "04-knock-with-velocity", "submission.rhai"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    let page = std::fs::read_to_string(bed.path("out/report.html")).expect("page");
+    let costs = page.split("id=\"costs-title\"").nth(1).expect("costs");
+    let row = costs.split("</li>").next().expect("a row");
+    for part in [
+        "up to <b>+7</b>",
+        "On the first line",
+        "and with it <bdi>The speed along the first line</bdi>",
+    ] {
+        assert!(row.contains(part), "no {part} in {row}");
+    }
 }
