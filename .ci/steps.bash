@@ -8,6 +8,8 @@ unset KINEMARK_BLESS
 export INSTA_UPDATE=no
 # What these set is another grade; a caller's must not decide.
 unset KINEMARK_SALT KINEMARK_LABS KINEMARK_REFERENCE
+# Everything is built once: what would make a second build faster takes time and twice the room on the disk.
+[ "${CI:-}" != true ] || export CARGO_INCREMENTAL=0
 
 sudo=""
 [ "$(id -u)" = 0 ] || sudo="sudo -n"
@@ -18,7 +20,7 @@ install() { # PACKAGE...: of Debian
 }
 
 # --- what a machine may lack -------------------------------------------------------------------------------------------------
-# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, archives, qemu, wine, firefox, rerun, slurm, robots, taplo, fuzz.
+# Names for KINEMARK_SKIP: node, browser, wasm, python; .ci/full adds windows, macos, musl, archives, qemu, wine, firefox, rerun, slurm, robots, taplo, book, fuzz.
 
 not_run=()
 skip() { # WHAT, WHY: said at once and in the last line
@@ -208,22 +210,45 @@ step_attacks() {
   rm -rf "$folder"
 }
 
+# Builds the program that the next steps try, and names it: that of the tests in .ci/run, and the one that is shipped in .ci/full.
+tried=release
+program() {
+  if [ "$tried" = debug ]; then
+    # of the whole workspace, so that dependencies have the features they were built with
+    cargo build --workspace --bins --tests --locked --quiet
+  else
+    cargo build --release --quiet --locked
+  fi
+  KINEMARK=$(realpath "$target/$tried/kinemark")
+  export KINEMARK
+}
+
+# The README's first command with the program of the tests; the step `release` runs it as it is written.
+step_readme() {
+  program
+  local command
+  command=$(sed -n '/^```/,/^```/p' README.md | grep -m1 '^cargo run --release -- ')
+  rm -rf "$target/ci/readme"
+  "$KINEMARK" ${command#cargo run --release -- } --out "$target/ci/readme"
+}
+
 # The reference solutions in C and Rust: the points and the very digests of the scripts.
 step_modules() {
   need clang || return 0
   need wasm || return 0
   local lab name module out=$target/ci/modules built=$target/ci/modules/rust
   mkdir -p "$out"
+  program
   cargo build --quiet --release --locked --lib --examples --target wasm32-unknown-unknown \
     --manifest-path reference/rust/Cargo.toml --target-dir "$built"
   for lab in labs/[0-9]*/; do
     name=$(basename "$lab")
-    release grade "$name" "reference/$name/solution.rhai" --out "$out/script" --json 2>/dev/null | digests >"$out/script.txt"
+    "$KINEMARK" grade "$name" "reference/$name/solution.rhai" --out "$out/script" --json 2>/dev/null | digests >"$out/script.txt"
     grep -q digest "$out/script.txt"
     clang --target=wasm32 -O2 -Wall -Werror -mbulk-memory -nostdlib -Wl,--no-entry,--stack-first -Igrader/plugin/c \
       -o "$out/c.wasm" "reference/$name/solution.c"
     for module in "$out/c.wasm" "$built/wasm32-unknown-unknown/release/$(rust_module "$name")"; do
-      release grade "$name" "$module" --out "$out/module" --json 2>/dev/null | digests | diff "$out/script.txt" -
+      "$KINEMARK" grade "$name" "$module" --out "$out/module" --json 2>/dev/null | digests | diff "$out/script.txt" -
     done
     echo "$name: the same points and digests in C, Rust and as a script"
   done
@@ -268,12 +293,22 @@ step_viewer() { # types, and the committed bundle is what its source gives
   cp -rp "$kept/." grader/web/dist/
 }
 
+# A report of a good submission of each lab, in ci/good.
+good_reports() {
+  local lab
+  program
+  rm -rf "$target/ci/good"
+  for lab in labs/[0-9]*/; do
+    lab=$(basename "$lab")
+    "$KINEMARK" grade "$lab" "tests/submissions/$lab/good/submission.rhai" --out "$target/ci/good/$lab" --json >/dev/null
+  done
+}
+
 # Reports and logs of all labs, and of labs that are hard on them: made once for the next three steps.
 reports() {
-  release --version >/dev/null
-  KINEMARK=$(realpath "$target/release/kinemark")
+  program
   KINEMARK_REPORTS=$(realpath "$target")/ci/reports
-  export KINEMARK KINEMARK_REPORTS
+  export KINEMARK_REPORTS
   [ -z "${reports_made:-}" ] || return 0
   rm -rf "$KINEMARK_REPORTS"
   node grader/web/test/graded.mjs "$KINEMARK_REPORTS"
@@ -284,10 +319,8 @@ reports() {
 step_browser_sample() {
   need browser || return 0
   # the program of this tree, not one that was left there
-  release --version >/dev/null
-  export KINEMARK
-  KINEMARK=$(realpath "$target/release/kinemark")
-  (cd grader/web && node --test --test-concurrency=2 test/reading.test.mjs test/checks_can_fail.test.mjs test/viewer.test.mjs test/docking.test.mjs test/plots.test.mjs test/pace.test.mjs test/views.test.mjs test/left.test.mjs test/screen.test.mjs test/classes.test.mjs test/kinematics.test.mjs test/briefs.test.mjs)
+  program
+  (cd grader/web && node --test --test-concurrency=2 test/reading.test.mjs test/checks_can_fail.test.mjs test/viewer.test.mjs test/docking.test.mjs test/plots.test.mjs test/pace.test.mjs test/views.test.mjs test/left.test.mjs test/arrows.test.mjs test/screen.test.mjs test/classes.test.mjs test/kinematics.test.mjs test/briefs.test.mjs)
 }
 
 step_browser() {
@@ -303,24 +336,28 @@ step_logs() { # read by two other implementations
   fi
   if need python; then
     # without Node there are the labs' own reports only
-    find "${KINEMARK_REPORTS:-$target/ci/release}" -name run.mcap -print0 | sort -z | xargs -0 "$python" tests/readers/read_log.py
+    [ -n "${KINEMARK_REPORTS:-}" ] || good_reports
+    find "${KINEMARK_REPORTS:-$target/ci/good}" -name run.mcap -print0 | sort -z | xargs -0 "$python" tests/readers/read_log.py
+    "$python" tests/readers/run_notebook.py docs/examples/robot-and-report.ipynb
+    rm -rf docs/examples/out
   fi
 }
 
 check_labs() { # VARIANTS: starter, reference solution in so many variants, mutants of every lab
   local lab
+  program
   for lab in labs/[0-9]*/; do
-    release lab check "$(basename "$lab")" --variants "$1"
+    "$KINEMARK" lab check "$(basename "$lab")" --variants "$1"
   done
 }
-step_labs() { check_labs 5; }
 
 mutate_labs() { # OPTIONS...: small changes of the reference solution of every lab, each graded
   local lab name out=$target/ci/mutations
   mkdir -p "$out"
+  program
   for lab in labs/[0-9]*/; do
     name=$(basename "$lab")
-    release lab check "$name" --mutate "$@" >"$out/$name.txt" || { cat "$out/$name.txt"; return 1; }
+    "$KINEMARK" lab check "$name" --mutate "$@" >"$out/$name.txt" || { cat "$out/$name.txt"; return 1; }
     echo "$name: $(tail -1 "$out/$name.txt")"
   done
 }

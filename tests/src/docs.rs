@@ -96,3 +96,33 @@ fn every_command_is_in_the_table_of_the_readme() {
     }
     assert!(seen > 10, "{seen}");
 }
+
+#[test]
+fn every_page_is_in_the_summary_of_the_book_under_its_title() {
+    let summary = std::fs::read_to_string(root().join("docs/SUMMARY.md")).expect("summary");
+    let mut seen = 0;
+    for folder in ["", "decisions/", "examples/", "gallery/"] {
+        for entry in std::fs::read_dir(root().join("docs").join(folder)).expect("docs") {
+            let path = entry.expect("entry").path();
+            let name = path.file_name().expect("a name").to_string_lossy();
+            if path.extension().is_none_or(|ending| ending != "md") || name == "SUMMARY.md" {
+                continue;
+            }
+            let page = std::fs::read_to_string(&path).expect("page");
+            let title = page.lines().next().unwrap_or_default();
+            let title = title.trim_start_matches("# ");
+            let line = match folder {
+                "gallery/" => format!("({folder}{name})"),
+                _ => format!("[{title}]({folder}{name})"),
+            };
+            assert!(summary.contains(&line), "docs/SUMMARY.md has no {line}");
+            seen += 1;
+        }
+    }
+    assert!(seen > 40, "{seen}");
+    assert_eq!(
+        summary.matches("](").count(),
+        seen,
+        "a page that is not there"
+    );
+}
