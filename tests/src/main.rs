@@ -22,6 +22,7 @@ mod determinism;
 mod docs;
 mod doctor;
 mod downloads;
+mod drawn_cases;
 mod errors;
 mod eval;
 mod eval_golden;

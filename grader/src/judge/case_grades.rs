@@ -157,7 +157,7 @@ pub(super) fn hidden_classes(facts: &[CaseFacts<'_>], band: Band) -> Vec<HiddenC
 }
 
 /// Poses that are turned by less than this are turned alike \[rad\]: bands of angles belong to checks, and a case has one of metres.
-const SAME_ANGLE_RAD: f64 = 1e-3;
+pub(super) const SAME_ANGLE_RAD: f64 = 1e-3;
 
 pub(super) fn is_good(facts: &CaseFacts<'_>, band: Band) -> bool {
     match &facts.error {

@@ -10,6 +10,7 @@ use super::expected::with_expected;
 use super::grader::{GradedTask, Grader, MOST_LOG_LINES, TaskScores};
 use super::hidden_attempts::HiddenAttempts;
 use super::judged::{JudgedCheck, all_full, judge};
+use super::shown_cases::shown_cases;
 use super::single_case::single_cases;
 use crate::attempt::answers::{Answered, Answers, CaseFacts};
 use crate::attempt::{Attempt, Disclosure, EndReason, Ended, function};
@@ -74,10 +75,12 @@ impl Grader<'_> {
             rulings,
         };
         let checks = function_checks(checks, &judged, explained);
+        let cases = shown_cases((&task.name, &self.lab.frame), work, facts, band);
         let outcome = (verdict, stopped);
         Ok(GradedTask {
             grade: self.function_grade((task, work, band), outcome, checks, diagnoses, attempt),
             run: None,
+            cases: Some(cases),
             scores,
         })
     }

@@ -22,6 +22,7 @@ use crate::record::grade::{
 };
 use crate::record::graded::{GradedRun, TaskRun};
 use crate::record::quantity::sum_of_points;
+use crate::record::shown_case::ShownCases;
 use crate::record::staff_fault::{StaffFault, StaffSubmission};
 use crate::record::verdict::Verdict;
 use crate::submission::controller::Opening;
@@ -246,6 +247,8 @@ pub(super) struct GradedTask {
     pub(super) grade: TaskGrade,
     /// The run of a motion task.
     pub(super) run: Option<TaskRun>,
+    /// The visible cases of a function task.
+    pub(super) cases: Option<ShownCases>,
     /// What its record is made from and does not hold.
     pub(super) scores: TaskScores,
 }
@@ -284,7 +287,8 @@ impl<'a> Grader<'a> {
         host: &mut dyn Host,
     ) -> Result<(GradedRun, Vec<TaskScores>), Interrupted> {
         let lab = self.lab;
-        let (mut tasks, mut runs, mut scores) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut tasks, mut scores) = (Vec::new(), Vec::new());
+        let (mut runs, mut cases) = (Vec::new(), Vec::new());
         for task in &lab.tasks {
             host.begins(&task.title);
             self.lab = lab.of_task(task);
@@ -302,6 +306,7 @@ impl<'a> Grader<'a> {
             }
             tasks.push(graded.grade);
             runs.extend(graded.run);
+            cases.extend(graded.cases);
             scores.push(graded.scores);
         }
         let graded = GradedRun {
@@ -309,6 +314,7 @@ impl<'a> Grader<'a> {
             title: lab.title.clone(),
             staff_faults: self.staff_faults.into_inner(),
             runs,
+            cases,
         };
         Ok((graded, scores))
     }

@@ -21,6 +21,7 @@ mod practice_form;
 mod reached;
 pub mod reference_run;
 mod robustness_sweep;
+mod shown_cases;
 mod single_case;
 mod staff_attempts;
 pub(crate) mod staff_faults;

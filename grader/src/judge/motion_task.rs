@@ -112,6 +112,7 @@ impl Grader<'_> {
         Ok(GradedTask {
             grade,
             run: Some(run),
+            cases: None,
             scores,
         })
     }

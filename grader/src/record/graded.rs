@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::record::grade::{Divergence, Grade};
 use crate::record::names::Names;
+use crate::record::shown_case::ShownCases;
 use crate::record::staff_fault::StaffFault;
 use crate::task::scene::LabScene;
 
@@ -25,6 +26,8 @@ pub struct GradedRun {
     pub staff_faults: Vec<Arc<StaffFault>>,
     /// The motion tasks that ran, in the lab's order.
     pub runs: Vec<TaskRun>,
+    /// The visible cases of the function tasks, in the lab's order.
+    pub cases: Vec<ShownCases>,
 }
 
 /// The run of one motion task.

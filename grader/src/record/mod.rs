@@ -11,6 +11,7 @@ pub mod quantity;
 pub mod run_figures;
 #[cfg(any(test, feature = "sample"))]
 pub mod sample;
+pub mod shown_case;
 pub mod staff_fault;
 pub mod sums;
 pub mod verdict;

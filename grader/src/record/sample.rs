@@ -15,6 +15,7 @@ use crate::record::grade::{
     Instant, LogEntry, Measure, Outcome, Part, SecondDigests, Stopped, TaskGrade, TaskKind,
 };
 use crate::record::graded::{Curve, Goal, GradedRun, TaskRun, TcpPath};
+use crate::record::shown_case::{AnsweredPlace, ShownCase, ShownCases, ShownPlaces};
 use crate::record::verdict::Verdict;
 
 /// The arm of the course.
@@ -612,6 +613,38 @@ fn moving() -> TaskGrade {
     moving
 }
 
+/// The cases of the sample's forward kinematics, of which one answer is wrong.
+fn fk_cases() -> ShownCases {
+    let places = |arm_m: [[f64; 3]; 3], tcp_m: [f64; 3], is_right| ShownPlaces {
+        upward: [1.0, 0.0, 0.0],
+        right_m: arm_m[2],
+        arm_m: arm_m.to_vec(),
+        branches: None,
+        answered: vec![AnsweredPlace {
+            tcp_m,
+            arm_m: Vec::new(),
+            is_right,
+        }],
+    };
+    let case = |name: &str, is_good, places| ShownCase {
+        name: name.to_owned(),
+        is_good,
+        places: Some(places),
+        numbers: Vec::new(),
+    };
+    let base = [0.0, 0.0, 0.05];
+    let bent = [base, [1.755, 0.959, 0.05], [2.748_738, 1.471_090, 0.05]];
+    let straight = [base, [2.0, 0.0, 0.05], [4.0, 0.0, 0.05]];
+    ShownCases {
+        task: "fk".to_owned(),
+        seen_from: "lab".to_owned(),
+        cases: vec![
+            case("bent", false, places(bent, [3.24, 1.411_485, 0.05], false)),
+            case("straight", true, places(straight, straight[2], true)),
+        ],
+    }
+}
+
 /// A graded run with every kind of outcome.
 pub fn graded() -> GradedRun {
     let warm_up = task(
@@ -649,5 +682,6 @@ pub fn graded() -> GradedRun {
         title: "Where is the hand?".to_owned(),
         staff_faults: Vec::new(),
         runs: vec![task_run()],
+        cases: vec![fk_cases()],
     }
 }

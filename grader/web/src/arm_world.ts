@@ -76,6 +76,7 @@ export class ArmWorld implements Placed {
       goals: [],
       paths: [],
       contacts: [],
+      wanted: null,
       events: [],
       ghostLabel: null,
       mainLabel: null,

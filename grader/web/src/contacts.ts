@@ -1,6 +1,6 @@
 // Which contacts are marked, and how strongly: those of the arm are what a motion did, while a can also touches the shelf it stands on.
 
-import type { Scenery, Vector } from "./data";
+import type { Contact, Scenery, Vector } from "./data";
 
 export interface ContactMark {
   readonly point: Vector;
@@ -11,6 +11,8 @@ export interface ContactMark {
   readonly size: number;
   /** How much it covers while it lasts. */
   readonly lasting: number;
+  /** The direction of the force on what the arm touches, as long as its size is a part of the greatest; null where it is not known. */
+  readonly force: Vector | null;
 }
 
 /** The marks of a run, at most so many: those of the arm first, then by impulse. */
@@ -21,6 +23,13 @@ export function contactMarks(replay: Scenery, most: number): ContactMark[] {
   const all = replay.contacts.map((contact) => ({ contact, arm: arm.has(contact.first) || arm.has(contact.second) }));
   all.sort((a, b) => Number(b.arm) - Number(a.arm) || b.contact.impulse - a.contact.impulse);
   const greatest = Math.max(0, ...all.slice(0, 1).map(({ contact }) => contact.impulse));
+  const strongest = Math.max(0, ...all.filter(({ arm }) => arm).map(({ contact }) => contact.force));
+  const forceOf = ({ force, normal }: Contact): Vector | null => {
+    if (!normal || !(strongest > 0) || !(force > 0)) return null;
+    // the root, so that a weak one is seen beside a strong one
+    const length = Math.sqrt(force / strongest);
+    return normal.map((x) => length * x);
+  };
   return all.slice(0, most).map(({ contact, arm }) => {
     const share = greatest > 0 ? Math.min(1, contact.impulse / greatest) : 1;
     return {
@@ -29,6 +38,7 @@ export function contactMarks(replay: Scenery, most: number): ContactMark[] {
       to: contact.to,
       size: arm ? 0.65 + 0.35 * Math.sqrt(share) : 0.5,
       lasting: arm ? 1 : 0.45,
+      force: arm ? forceOf(contact) : null,
     };
   });
 }

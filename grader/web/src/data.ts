@@ -66,6 +66,9 @@ export interface Contact {
   readonly second: string;
   readonly point: Vector;
   readonly impulse: number;
+  /** The greatest normal force \[N\], and its direction: on the second party, in the world. */
+  readonly force: number;
+  readonly normal: Vector | null;
 }
 
 export const EVENT_KINDS = ["contact", "limit", "saturation", "breach", "fell", "stop", "other"] as const;
@@ -96,6 +99,8 @@ export interface Replay {
   readonly moves: { readonly tcp: Way; readonly q: readonly Way[]; readonly nodes: readonly Way[] };
   /** The TCP in the lab frame at every step. */
   readonly tcp: Track;
+  /** The velocity of the TCP that was commanded at every step, in the lab frame \[m/s\]; null where velocities are not what is commanded. */
+  readonly wanted: Track | null;
   readonly joints: readonly Joint[];
   readonly reference: { readonly periodS: number; readonly path: Track } | null;
   readonly goals: readonly Goal[];
@@ -310,6 +315,7 @@ export function read(json: string): Replay {
     frames: list("frames", frame),
     moves: { tcp, q, nodes: tracks },
     tcp: resampled(tcp, ticks),
+    wanted: root.of("wanted").maybe((value) => value.track(3, ticks)),
     joints,
     reference: root.of("reference").maybe((value) => ({ periodS: value.of("periodS").positive(), path: value.of("path").track(3, null) })),
     goals: list("goals", (value) => ({ position: value.of("position").numbers(3), ...tolerance(value) })),
@@ -325,6 +331,8 @@ export function read(json: string): Replay {
       second: value.of("second").text(),
       point: value.of("point").numbers(3),
       impulse: value.of("impulse").number(),
+      force: value.of("force").maybe((v) => v.number()) ?? 0,
+      normal: value.of("normal").maybe((v) => v.numbers(3)),
     })),
     events: list("events", (value) => ({
       tick: value.of("tick").number(),

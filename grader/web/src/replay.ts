@@ -1,6 +1,7 @@
 // One task's replay: its picture, controls, numbers and plots, all at one moment.
 
 import { Announcer } from "./announce";
+import { contactMarks } from "./contacts";
 import { Controls } from "./controls";
 import { Cursor, SPEEDS } from "./cursor";
 import { isReference, type Replay as Data, type RunEvent } from "./data";
@@ -51,7 +52,7 @@ export class Replay {
   private readonly plots: Plot[];
   private readonly note = element("p", { class: "replay-note" });
   private readonly shared = element("p", { class: "replay-shared" });
-  private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true };
+  private readonly parts: Record<Part, boolean>;
   private view: View;
   /** The picture in space, while the flat one stands in its place by choice. */
   private spatial: View | null = null;
@@ -66,11 +67,14 @@ export class Replay {
     private readonly address: Address,
   ) {
     this.cursor = new Cursor(data);
+    // where velocities are commanded, they are what the task is about
+    this.parts = { shadows: true, frames: false, ghost: true, velocity: data.wanted !== null };
     this.world = new World(data);
     const looked = new World(data);
     const size = extent(data, looked);
     this.extent = { ...size, look: lookout(data, looked, size) };
     this.view = this.open();
+    this.view.show("velocity", this.parts.velocity);
     this.scrubber = new Scrubber(data, this.cursor, (event) => this.goTo(event));
     this.readout = new Readout(data, this.world);
     this.controls = new Controls(data, this.cursor, {
@@ -141,7 +145,7 @@ export class Replay {
     const before = this.view.element;
     const focused = before.contains(document.activeElement);
     this.view = this.side();
-    for (const part of ["frames", "ghost"] as const) this.view.show(part, this.parts[part]);
+    for (const part of ["frames", "ghost", "velocity"] as const) this.view.show(part, this.parts[part]);
     before.replaceWith(this.view.element);
     if (focused) this.view.element.focus({ preventScroll: true });
     this.sayFlat("The 3D view was lost");
@@ -154,7 +158,7 @@ export class Replay {
     const after = on ? this.side() : (this.spatial ?? before);
     if (on) this.spatial = before;
     this.view = after;
-    for (const part of ["shadows", "frames", "ghost"] as const) after.show(part, this.parts[part]);
+    for (const part of ["shadows", "frames", "ghost", "velocity"] as const) after.show(part, this.parts[part]);
     before.element.replaceWith(after.element);
     after.invalidate();
   }
@@ -182,6 +186,11 @@ export class Replay {
     if (data.nodes.some((node) => node.kind === "ghost")) item("ghost", isReference(data) ? "the reference's arm" : `run ${data.ghostLabel}`);
     item("trail", "path of the TCP, thin where it is still to come");
     if (left(data).length > 0) item("left", "where it was farther from the path than earns all points, with an arrow to the path");
+    if (data.wanted) {
+      item("velocity", "velocity of the TCP, as an arrow");
+      item("wanted", "velocity that was commanded");
+    }
+    if (contactMarks(data, data.contacts.length).some(({ force }) => force)) item("force", "force of the arm on what it touches, at its greatest");
     if (data.reference && data.reference.path.count > 1) item("reference", isReference(data) ? "the reference's path" : `path of run ${data.ghostLabel}`);
     if (data.goals.length) item("goal", data.goals.length > 1 ? "goals" : "goal");
     if (data.paths.length) item("path", "path to follow, and how far off still counts");

@@ -3,7 +3,6 @@
 import {
   AmbientLight,
   BufferGeometry,
-  ConeGeometry,
   Color,
   CylinderGeometry,
   DirectionalLight,
@@ -19,6 +18,7 @@ import {
   SphereGeometry,
   Vector3,
 } from "three";
+import { Arrow, type Drawing } from "./arrow";
 import { bones, reach, type Bone } from "./bones";
 import { contactMarks, coverAt, type ContactMark } from "./contacts";
 import type { Frame, Scenery } from "./data";
@@ -32,10 +32,13 @@ import { Edges } from "./outline";
 import { geometry, tube } from "./shapes";
 import { colourOf, turn, turns, type Theme, type Turn } from "./theme";
 import type { Part } from "./view";
+import { Velocity } from "./velocity";
 import type { Placed } from "./world";
 
 /** Contacts that are marked. */
 const MOST_CONTACTS = 200;
+/** The arrow of the greatest force of a run is as long as this part of its size. */
+const LONGEST_FORCE = 0.35;
 
 type Glass = MeshBasicMaterial;
 
@@ -50,7 +53,7 @@ export class RunScene {
   private readonly edges = new Edges();
   private readonly moving: Array<{ object: Object3D; index: number }> = [];
   private readonly sticks: Array<{ bone: Bone; stick: Mesh; ball: Mesh }> = [];
-  private readonly contacts: Array<{ mesh: Mesh<BufferGeometry, Glass>; mark: ContactMark }> = [];
+  private readonly contacts: Array<{ mesh: Mesh<BufferGeometry, Glass>; mark: ContactMark; arrow: Arrow | null }> = [];
   private readonly lines: Array<{ line: Line; colour: keyof Theme }> = [];
   private readonly glasses: Array<{ material: Glass; colour: keyof Theme }> = [];
   private readonly trail: Line;
@@ -58,7 +61,13 @@ export class RunScene {
   /** Where the path to follow was left: what is drawn over the trail, and the arrow back to the path. */
   private readonly left: readonly Left[];
   private readonly off: Line[] = [];
-  private arrow: { shaft: Line; head: Mesh } | null = null;
+  private readonly arrow: Arrow | null = null;
+  /** The velocity of the TCP, and that which was commanded. */
+  private readonly velocity: Velocity;
+  private readonly moved: Arrow;
+  private readonly wanted: Arrow;
+  private moves = false;
+  private readonly tip = new Float64Array(3);
   private readonly referenceDot: Mesh | null = null;
   private readonly axes: Array<{ line: Line; node: number | null }> = [];
   private readonly grid: Grid;
@@ -194,15 +203,14 @@ export class RunScene {
       lab.add(line);
       this.off.push(line);
     }
-    if (this.left.length > 0) {
-      const shaft = draw(new Line([0, 0, 0, 0, 0, 1], { width: 2.5 }), "left", 7);
-      // it is put where it is at every moment
-      shaft.frustumCulled = false;
-      lab.add(shaft);
-      // its tip in the origin, its foot along -z
-      const cone = new ConeGeometry(0.014 * unit, 0.036 * unit, 14).rotateX(Math.PI / 2).translate(0, 0, -0.018 * unit);
-      this.arrow = { shaft, head: add(lab, cone, glass("left", 1), 7) };
-    }
+    const arrow = (parent: Object3D, colour: keyof Theme, layer: number, over = false): Arrow => {
+      const drawing: Drawing = { line: (line, layer) => draw(line, colour, layer), glass: () => glass(colour, 1) };
+      return new Arrow(parent, drawing, layer, unit, over);
+    };
+    if (this.left.length > 0) this.arrow = arrow(lab, "left", 7);
+    this.velocity = new Velocity(replay, unit);
+    this.wanted = arrow(lab, "wanted", 7.2);
+    this.moved = arrow(lab, "velocity", 7.3);
 
     // round, as its mark on the time line
     const ball = new SphereGeometry(1, 20, 14);
@@ -213,7 +221,10 @@ export class RunScene {
       const size = 0.014 * unit * mark.size;
       mesh.matrix.makeScale(size, size, size).setPosition(mark.point[0], mark.point[1], mark.point[2]);
       mesh.matrixWorldNeedsUpdate = true;
-      this.contacts.push({ mesh, mark });
+      const { force, point } = mark;
+      const pressing = force ? arrow(scene, "contact", 8.5, true) : null;
+      if (force) pressing?.aim(point, point.map((x, c) => x + LONGEST_FORCE * unit * force[c]));
+      this.contacts.push({ mesh, mark, arrow: pressing });
     }
 
     const tips = [new Vector3(1, 0, 0), new Vector3(0, 1, 0), new Vector3(0, 0, 1)].map((axis) => axis.multiplyScalar(this.axis));
@@ -257,7 +268,8 @@ export class RunScene {
     for (const line of this.off) line.now = world.progress;
     this.dot.matrix.setPosition(world.tcp[0], world.tcp[1], world.tcp[2]);
     this.dot.matrixWorldNeedsUpdate = true;
-    if (this.arrow) this.point(this.arrow.shaft, this.arrow.head);
+    if (this.arrow) this.point(this.arrow);
+    this.drawVelocities();
     const reference = this.replay.reference;
     if (reference && this.referenceDot) {
       const { values, count } = reference.path;
@@ -274,10 +286,11 @@ export class RunScene {
     }
     const tick = world.t / this.replay.stepS;
     for (let i = 0; i < this.contacts.length; i++) {
-      const { mesh, mark } = this.contacts[i];
+      const { mesh, mark, arrow } = this.contacts[i];
       const cover = coverAt(mark, tick);
       mesh.visible = cover > 0;
       mesh.material.opacity = cover;
+      if (arrow) arrow.visible = cover > 0;
     }
     if (this.axes.length && this.axes[0].line.visible) {
       const { frames } = this;
@@ -289,19 +302,27 @@ export class RunScene {
   }
 
   /** Points from the TCP to where the path is, while it is off. */
-  private point(shaft: Line, head: Mesh): void {
-    const { world, along, across, beside, spot } = this;
+  private point(arrow: Arrow): void {
+    const { world, spot } = this;
     const off = offAt(this.left, world.progress);
-    shaft.visible = head.visible = off !== null;
-    if (!off) return;
+    if (!off) {
+      arrow.visible = false;
+      return;
+    }
     nearest(spot, off.path, world.tcp);
-    shaft.between(world.tcp, spot);
-    along.set(spot[0] - world.tcp[0], spot[1] - world.tcp[1], spot[2] - world.tcp[2]).normalize();
-    across.set(Math.abs(along.z) < 0.9 ? 0 : 1, 0, Math.abs(along.z) < 0.9 ? 1 : 0);
-    beside.crossVectors(along, across).normalize();
-    across.crossVectors(beside, along).normalize();
-    head.matrix.makeBasis(across, beside, along).setPosition(spot[0], spot[1], spot[2]);
-    head.matrixWorldNeedsUpdate = true;
+    arrow.aim(world.tcp, spot);
+  }
+
+  private drawVelocities(): void {
+    const { moved, wanted, velocity, tip, world } = this;
+    moved.visible = wanted.visible = false;
+    if (!this.moves) return;
+    velocity.actual(tip, world.progress);
+    velocity.tip(tip, world.tcp);
+    moved.aim(world.tcp, tip);
+    if (!velocity.wanted(tip, world.progress)) return;
+    velocity.tip(tip, world.tcp);
+    wanted.aim(world.tcp, tip);
   }
 
   /** Shows of what moves only what is there. */
@@ -338,7 +359,8 @@ export class RunScene {
     else if (part === "shadows") {
       this.sun.castShadow = on;
       this.floor.visible = on;
-    } else for (const { mesh, turn } of this.nodes) if (turn === "ghost") mesh.visible = on;
+    } else if (part === "velocity") this.moves = on;
+    else for (const { mesh, turn } of this.nodes) if (turn === "ghost") mesh.visible = on;
   }
 
   colour(theme: Theme): void {

@@ -15,11 +15,14 @@ import { pitchFor } from "./pitch";
 import { place } from "./pose";
 import { turns } from "./theme";
 import type { Part, Project, View } from "./view";
+import { Velocity } from "./velocity";
 import type { Placed } from "./world";
 
 /** Points of a circle that stands for a ball. */
 const ROUND = 20;
 const MOST_CONTACTS = 100;
+/** The arrow of the greatest force of a run is as long as this part of its size. */
+const LONGEST_FORCE = 0.35;
 const AXES = ["x", "y", "z"] as const;
 
 interface Outline {
@@ -34,13 +37,18 @@ export class Side implements View {
   private readonly svg: SVGSVGElement;
   private readonly outlines: Outline[] = [];
   private readonly sticks: Array<{ bone: Bone; line: SVGLineElement }> = [];
-  private readonly marks: Array<{ dot: SVGElement; mark: ContactMark }> = [];
+  private readonly marks: Array<{ dot: SVGElement; arrow: SVGElement | null; mark: ContactMark }> = [];
   private readonly past: SVGPolylineElement;
   private readonly dot: SVGCircleElement;
   /** Where the path to follow was left, drawn over the trail, and the arrow back to the path. */
   private readonly left: readonly Left[];
   private readonly off = drawing("path", { class: "side-left" });
   private readonly arrow = drawing("path", { class: "side-arrow" });
+  /** The velocity of the TCP, and that which was commanded. */
+  private readonly velocity: Velocity;
+  private readonly moved = drawing("path", { class: "side-velocity" });
+  private readonly wanted = drawing("path", { class: "side-wanted" });
+  private moves = false;
   private readonly frames: Array<{ frame: Frame; group: SVGGElement; axes: Array<{ line: SVGLineElement; letter: SVGTextElement }>; name: SVGTextElement }> = [];
   private readonly tip = new Float64Array(3);
   private readonly labFixed: boolean;
@@ -105,12 +113,16 @@ export class Side implements View {
     this.past = drawing("polyline", { class: "side-trail" });
     this.dot = drawing("circle", { class: "side-tcp", r: String(0.012 * this.unit) });
     this.left = left(replay);
+    this.velocity = new Velocity(replay, extent.radius);
     this.drawLab();
     for (const mark of contactMarks(replay, MOST_CONTACTS)) {
       const [x, y] = this.flat(mark.point);
       const dot = drawing("circle", { class: "side-contact", cx: String(x), cy: String(y), r: String(0.014 * this.unit * mark.size) });
+      const { force, point } = mark;
+      const arrow = force ? drawing("path", { class: "side-force", d: this.arrowTo([x, y], this.flat(point.map((p, c) => p + LONGEST_FORCE * this.unit * force[c]))) }) : null;
       marks.append(dot);
-      this.marks.push({ dot, mark });
+      if (arrow) marks.append(arrow);
+      this.marks.push({ dot, arrow, mark });
     }
     const size = String(0.045 * this.unit);
     const text = (words: string): SVGTextElement => {
@@ -182,7 +194,7 @@ export class Side implements View {
     if (replay.reference) still.append(drawing("polyline", { class: "side-reference", points: this.points(replay.reference.path.values).join(" ") }));
     this.trail.length = 0;
     this.trail.push(...this.points(replay.tcp.values));
-    still.append(drawing("polyline", { class: "side-future", points: this.trail.join(" ") }), this.past, this.off, this.arrow, this.dot);
+    still.append(drawing("polyline", { class: "side-future", points: this.trail.join(" ") }), this.past, this.off, this.arrow, this.wanted, this.moved, this.dot);
   }
 
   invalidate(): void {
@@ -192,6 +204,10 @@ export class Side implements View {
   show(part: Part, on: boolean): void {
     if (part === "frames") {
       this.framesShown = on;
+      this.invalidate();
+    }
+    if (part === "velocity") {
+      this.moves = on;
       this.invalidate();
     }
     const name = part === "frames" ? ".side-frames" : part === "ghost" ? ".side-ghost" : null;
@@ -220,14 +236,19 @@ export class Side implements View {
     this.dot.setAttribute("cy", y.toFixed(5));
     if (this.left.length > 0) this.drawLeft(x, y);
     const tick = world.t / this.replay.stepS;
-    for (const { dot, mark } of this.marks) dot.style.opacity = String(coverAt(mark, tick));
+    this.drawVelocities(x, y);
+    for (const { dot, arrow, mark } of this.marks) {
+      const cover = coverAt(mark, tick);
+      dot.style.opacity = String(cover);
+      if (arrow) arrow.style.display = cover > 0 ? "" : "none";
+    }
     if (this.framesShown) for (const one of this.frames) this.drawFrame(one);
     this.drawnOver?.(this.project);
   };
 
   /** The trail where the path was left, and while it is, an arrow from the TCP to the path. */
   private drawLeft(x: number, y: number): void {
-    const { world, trail, spot, unit } = this;
+    const { world, trail, spot } = this;
     let d = "";
     const last = Math.floor(world.progress);
     for (const { off } of this.left) for (let k = 0; k < last; k++) if (off[k]) d += `${k > 0 && off[k - 1] ? "L" : `M${trail[k]}L`}${trail[k + 1]}`;
@@ -237,9 +258,27 @@ export class Side implements View {
     if (!now) return;
     nearest(spot, now.path, world.tcp);
     const [tx, ty] = this.fromLab([spot[0], spot[1], spot[2]]);
+    this.arrow.setAttribute("d", this.arrowTo([x, y], [tx, ty]));
+  }
+
+  /** The path of an arrow in the picture; nothing where it has no length in it. */
+  private arrowTo([x, y]: readonly [number, number], [tx, ty]: readonly [number, number]): string {
+    if (Math.hypot(tx - x, ty - y) < 1e-6 * this.unit) return "";
     const way = Math.atan2(ty - y, tx - x);
-    const barbs = [2.7, -2.7].map((turn) => `M${tx} ${ty}L${tx + 0.035 * unit * Math.cos(way + turn)} ${ty + 0.035 * unit * Math.sin(way + turn)}`);
-    this.arrow.setAttribute("d", `M${x} ${y}L${tx} ${ty}${barbs.join("")}`);
+    const barb = 0.035 * this.unit;
+    const barbs = [2.7, -2.7].map((turn) => `M${tx} ${ty}L${tx + barb * Math.cos(way + turn)} ${ty + barb * Math.sin(way + turn)}`);
+    return `M${x} ${y}L${tx} ${ty}${barbs.join("")}`;
+  }
+
+  private drawVelocities(x: number, y: number): void {
+    const { world, velocity, tip } = this;
+    const draw = (arrow: SVGPathElement, there: boolean): void => {
+      if (there) velocity.tip(tip, world.tcp);
+      arrow.setAttribute("d", there ? this.arrowTo([x, y], this.fromLab(tip)) : "");
+    };
+    if (this.moves) velocity.actual(tip, world.progress);
+    draw(this.moved, this.moves);
+    draw(this.wanted, this.moves && velocity.wanted(tip, world.progress));
   }
 
   private readonly project: Project = (out, p) => {

@@ -63,7 +63,7 @@ export class Stage implements View {
   private pixels = 0;
   private width = 0;
   private height = 0;
-  private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true };
+  private readonly parts: Record<Part, boolean> = { shadows: true, frames: false, ghost: true, velocity: false };
   private readonly undo: Array<() => void> = [];
   private readonly point = new Vector3();
   drawnOver?: (project: Project) => void;

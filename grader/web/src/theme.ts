@@ -18,6 +18,9 @@ export interface Theme {
   readonly reference: string;
   readonly goal: string;
   readonly contact: string;
+  /** The velocity of the TCP, and that which was commanded. */
+  readonly velocity: string;
+  readonly wanted: string;
   readonly path: string;
   readonly axes: readonly [x: string, y: string, z: string];
   readonly grid: string;
@@ -41,6 +44,8 @@ export const LIGHT: Theme = {
   reference: "#9e4a80",
   goal: "#007e5c",
   contact: "#c65200",
+  velocity: "#1c222c",
+  wanted: "#926400",
   path: "#007e5c",
   axes: ["#c8102e", "#007e3a", "#1f4fd8"],
   grid: "#8a96a5",
@@ -63,6 +68,8 @@ export const DARK: Theme = {
   reference: "#e69cc8",
   goal: "#38c89c",
   contact: "#ff9452",
+  velocity: "#e8ebf0",
+  wanted: "#e2b240",
   path: "#38c89c",
   axes: ["#ff7a85", "#5fd38a", "#86a8ff"],
   grid: "#5b6675",

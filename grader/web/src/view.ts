@@ -3,7 +3,7 @@
 import type { Preset } from "./orbit";
 
 /** What may be shown or left out. */
-export type Part = "shadows" | "frames" | "ghost";
+export type Part = "shadows" | "frames" | "ghost" | "velocity";
 
 /** Where one looks from. */
 export interface Camera {

@@ -48,7 +48,7 @@ export class ViewMenu {
       return made;
     };
     const shadows = toggle("Shadows", "shadows");
-    const shown = group("Show", toggle("Frames", "frames"), shadows);
+    const shown = group("Show", toggle("Frames", "frames"), toggle("Velocity", "velocity"), shadows);
     if (replay.nodes.some((node) => node.kind === "ghost")) shown.append(toggle(isReference(replay) ? "Reference arm" : `Run ${replay.ghostLabel}`, "ghost"));
     const plane = button("2D", null, () => this.flatten(!this.isFlat));
     plane.setAttribute("aria-pressed", "false");

@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::event::EventKind;
-use crate::model::contact::Party;
+use crate::model::contact::{ContactFact, Party};
 use crate::step::hybrid::StepReport;
 
 /// One contact of two parties, from its first to its last tick; pauses under 20 ms do not end it.
@@ -21,6 +21,9 @@ pub struct ContactSpan {
     pub peak_force_n: f64,
     /// The tick of the peak force.
     pub peak_tick: u64,
+    /// Direction of the normal force on the second party at that tick, in the world: a unit vector, zero where the force has none. It is for
+    /// pictures, and in no digest.
+    pub peak_normal_in_world: Vector3<f64>,
     /// Sum of the normal impulses, never negative \[N s\].
     pub impulse_n_s: f64,
     /// Greatest penetration depth \[m\].
@@ -85,6 +88,7 @@ impl ContactWatch {
                 last_tick: tick,
                 peak_force_n: fact.force_n,
                 peak_tick: tick,
+                peak_normal_in_world: normal(fact),
                 impulse_n_s: 0.0,
                 depth_m: 0.0,
                 p_first_in_world: fact.p_centre_in_world,
@@ -112,6 +116,7 @@ impl ContactWatch {
             if fact.force_n > span.peak_force_n {
                 span.peak_force_n = fact.force_n;
                 span.peak_tick = tick;
+                span.peak_normal_in_world = normal(fact);
             }
         }
     }
@@ -121,10 +126,18 @@ impl ContactWatch {
     }
 }
 
+/// The direction of the normal force of a contact on its second party.
+fn normal(fact: &ContactFact) -> Vector3<f64> {
+    let size = fact.normal_impulse_n_s.norm();
+    match size > 0.0 {
+        true => fact.normal_impulse_n_s / size,
+        false => Vector3::zeros(),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::contact::ContactFact;
     use crate::step::hybrid::StateFrom;
 
     fn report(forces_n: &[(usize, f64)]) -> StepReport {

@@ -134,6 +134,7 @@ fn task_section(index: usize, task: &TaskGrade, hints: &Hints, most: usize) -> M
         kind: task.kind,
         run: None,
         has_replay: false,
+        cases: None,
         stopped: task.stopped.is_some(),
         hints: Some(hints),
         script: None,

@@ -10,6 +10,7 @@ pub mod feedback;
 mod figure;
 mod head;
 mod look;
+mod shown_cases;
 mod since;
 mod source;
 mod static_page;
@@ -87,6 +88,7 @@ fn page_with_notice(
             plots.get(at).map_or(&[][..], Vec::as_slice),
         ))
     };
+    let cases_of = |name: &str| graded.cases.iter().find(|shown| shown.task == name);
     let replays: Vec<(usize, String)> = grade
         .tasks
         .iter()
@@ -125,7 +127,7 @@ fn page_with_notice(
             (scores(grade))
             // of a file that is no program every section would say the same
             @for (i, task) in grade.tasks.iter().enumerate().filter(|_| whole_file.is_none()) {
-                (task::section(i, task, drawn(&task.name), has_replay(i), script, extras.chapters))
+                (task::section(i, task, drawn(&task.name), cases_of(&task.name), has_replay(i), script, extras.chapters))
             }
             (source(grade, script, extras.module_sources))
         }
@@ -194,7 +196,9 @@ fn kept_with_units(text: &str) -> String {
         kept.push_str(before);
         let word = after.split([' ', '\u{a0}']).next().unwrap_or_default();
         let unit = word.trim_end_matches([',', '.', ';', ':', ')', ']']);
-        let is_number = before.ends_with(|c: char| c.is_ascii_digit() || c == ']');
+        let ends_in_digit = |text: &str| text.ends_with(|c: char| c.is_ascii_digit());
+        let is_list = before.ends_with(']') || before.strip_suffix(')').is_some_and(ends_in_digit);
+        let is_number = is_list || ends_in_digit(before);
         // a product of units is one unit
         let is_product = kept.ends_with("\u{a0}N") && matches!(unit, "m" | "s");
         let is_kept = is_number && UNITS.contains(&unit) || is_product;
@@ -236,8 +240,8 @@ mod tests {
     fn a_number_and_its_unit_stay_on_one_line() {
         let kept = |text| kept_with_units(text).replace('\u{a0}', "_");
         assert_eq!(
-            kept("37.2 mm off at [1.4, 0.05] m, 12 N m and 3 of 4 s."),
-            "37.2_mm off at [1.4, 0.05]_m, 12_N_m and 3 of 4_s."
+            kept("37.2 mm off at [1.4, 0.05] m, (1, 0.6) m, 12 N m and 3 of 4 s."),
+            "37.2_mm off at [1.4, 0.05]_m, (1, 0.6)_m, 12_N_m and 3 of 4_s."
         );
         assert_eq!(kept("in 1 metre m s 5"), "in 1 metre m s 5");
     }

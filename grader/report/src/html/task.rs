@@ -6,6 +6,7 @@ use maud::{Markup, html};
 use super::chapters::chapters;
 use super::figure::figure;
 use super::head::{anchor, earned, meaning, verdict};
+use super::shown_cases::drawn_cases;
 use super::source::{ScriptLines, pointed, prose_with_lines};
 use super::task_check::checked;
 use super::task_shown::TaskShown;
@@ -22,6 +23,7 @@ use kinemark_grader::record::grade::{
 };
 use kinemark_grader::record::graded::TaskRun;
 use kinemark_grader::record::quantity::with_unit;
+use kinemark_grader::record::shown_case::ShownCases;
 use kinemark_grader::record::verdict::Verdict;
 
 /// The section of a task.
@@ -29,6 +31,7 @@ pub(super) fn section(
     index: usize,
     task: &TaskGrade,
     run: Option<(&TaskRun, &[Plot])>,
+    shown_cases: Option<&ShownCases>,
     has_replay: bool,
     script: Option<&ScriptLines<'_>>,
     has_chapters: bool,
@@ -40,6 +43,7 @@ pub(super) fn section(
         kind: task.kind,
         run: run.map(|(run, _)| run),
         has_replay,
+        cases: shown_cases,
         stopped: task
             .stopped
             .as_ref()
@@ -104,6 +108,7 @@ pub(super) fn not_run(stop: &Stopped, script: Option<&ScriptLines<'_>>) -> Marku
         kind: TaskKind::Function,
         run: None,
         has_replay: false,
+        cases: None,
         stopped: true,
         hints: None,
         script,
@@ -177,7 +182,11 @@ fn details_of(id: &str, task: &TaskGrade, plots: &[Plot], of: &TaskShown<'_>) ->
                 }
             }
         }
-        @if !task.cases.is_empty() { (cases(&task.cases)) }
+        @if !task.cases.is_empty() {
+            h3 { "Visible cases" }
+            @if let Some(shown) = of.cases { (drawn_cases(shown, &task.cases)) }
+            (cases(&task.cases))
+        }
         @if !task.hidden.is_empty() { (hidden(id, task)) }
         @if has_others {
             h3 { "Plots" }

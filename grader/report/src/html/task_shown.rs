@@ -7,6 +7,7 @@ use super::viewer::seek;
 use kinemark_grader::record::grade::TaskKind;
 use kinemark_grader::record::graded::TaskRun;
 use kinemark_grader::record::hints::Hints;
+use kinemark_grader::record::shown_case::ShownCases;
 
 /// The task that a part of the page is about.
 pub(super) struct TaskShown<'a> {
@@ -14,6 +15,8 @@ pub(super) struct TaskShown<'a> {
     pub(super) kind: TaskKind,
     pub(super) run: Option<&'a TaskRun>,
     pub(super) has_replay: bool,
+    /// The cases of a function task that are drawn.
+    pub(super) cases: Option<&'a ShownCases>,
     /// Whether something stopped the submission, with nothing left to judge.
     pub(super) stopped: bool,
     /// The hints that the course staff release; without them the page names the command that unfolds them.

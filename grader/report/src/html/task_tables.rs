@@ -23,7 +23,6 @@ const MOST_CASES: usize = 200;
 pub(super) fn cases(cases: &[CaseGrade]) -> Markup {
     let shows_expected = cases.iter().any(|case| case.expected.is_some());
     html! {
-        h3 { "Visible cases" }
         div class="wide" tabindex="0" role="group" aria-label="Visible cases" {
             table class="cases" {
                 thead {

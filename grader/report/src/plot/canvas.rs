@@ -99,14 +99,24 @@ fn units((x, y): (f64, f64)) -> (i32, i32) {
 
 /// Makes a picture of `height` pixels; `title` is what a screen reader says, and `draw` what is seen.
 pub(super) fn picture(title: &str, height: f64, draw: impl FnOnce(&mut Canvas)) -> String {
-    let (w, h) = units((WIDTH, height));
-    let drawn = drawn((WIDTH, height), |canvas| {
-        canvas.area((0.0, 0.0), (WIDTH, height), PAPER, 1.0);
+    sized_picture(title, (WIDTH, height), draw)
+}
+
+/// The same of another width: `size` is width and height.
+pub(super) fn sized_picture(
+    title: &str,
+    size: (f64, f64),
+    draw: impl FnOnce(&mut Canvas),
+) -> String {
+    let (w, h) = units(size);
+    let drawn = drawn(size, |canvas| {
+        canvas.area((0.0, 0.0), size, PAPER, 1.0);
         draw(canvas);
     });
     let title = maud::html! { title { (title) } }.into_string();
+    let (width, height) = size;
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" width=\"{WIDTH}\" height=\"{height}\" \
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plot\" role=\"img\" width=\"{width}\" height=\"{height}\" \
          font-family=\"sans-serif\" viewBox=\"0 0 {w} {h}\">{title}<style>{}</style>\n{drawn}",
         palette::plot_css()
     )

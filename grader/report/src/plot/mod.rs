@@ -2,6 +2,7 @@
 
 mod axis;
 mod canvas;
+mod case_picture;
 mod course;
 mod differences;
 mod given_paths;
@@ -18,6 +19,7 @@ mod thin;
 mod timeline;
 mod view;
 
+pub(crate) use self::case_picture::{case_legend, case_picture};
 pub use self::differences::differences;
 pub use self::histogram::{Histogram, histogram};
 use self::joints::Of;

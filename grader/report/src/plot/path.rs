@@ -1,6 +1,6 @@
 //! The TCP's path in the plane it moves in, to scale on both axes, with a close look at every goal.
 
-use kinemark_sim::kinematics::FramePoses;
+use kinemark_sim::kinematics::{FramePoses, stick_figure};
 use kinemark_sim::spatial::Pose;
 use kinemark_sim::text::number::seconds;
 use nalgebra::Vector3;
@@ -88,17 +88,9 @@ fn upward(run: &TaskRun) -> [f64; 3] {
     [up.x, up.y, up.z]
 }
 
-/// The arm from its first joint that moves to the TCP, at the first and the last tick.
+/// The arm as a line, at the first and the last tick.
 fn arms(run: &TaskRun) -> [Option<Vec<[f64; 3]>>; 2] {
     let robot = &run.robot;
-    let tcp = robot.tcp();
-    // links from the TCP's down to the first that moves
-    let mut links = Vec::new();
-    let mut link = tcp.link;
-    while let Some(joint) = robot.joints().iter().find(|joint| joint.child == link) {
-        links.push(link);
-        link = joint.parent;
-    }
     let seen_from = robot.frame(&run.seen_from);
     let mut poses = FramePoses::new(robot);
     let mut at = |tick: usize| {
@@ -107,16 +99,7 @@ fn arms(run: &TaskRun) -> [Option<Vec<[f64; 3]>>; 2] {
             return None;
         }
         poses.update(robot, q);
-        let world_from_frame = seen_from.map(|frame| poses.world_from(frame));
-        let place = |frame| {
-            let pose = poses.world_from(frame);
-            let pose =
-                world_from_frame.map_or(pose, |world_from_frame| world_from_frame.inv_mul(&pose));
-            let p = pose.translation.vector;
-            [p.x, p.y, p.z]
-        };
-        let chain = links.iter().rev().map(|link| &robot.frames()[*link]);
-        Some(chain.chain([tcp]).map(place).collect())
+        Some(stick_figure(robot, &poses, seen_from))
     };
     match run.trace.len() {
         0 => [None, None],

@@ -38,11 +38,17 @@ pub(super) struct Plane {
 impl Plane {
     /// The two coordinates of greatest extent; the one that points up in the world is drawn upwards.
     pub(super) fn of(points: &[[f64; 3]], upward: [f64; 3]) -> Self {
+        Self::showing(points, upward, None)
+    }
+
+    /// The same, but that the coordinate `shown` is among the two.
+    pub(super) fn showing(points: &[[f64; 3]], upward: [f64; 3], shown: Option<usize>) -> Self {
         let span =
             |c: usize| extent(points.iter().map(|p| p[c])).map_or(0.0, |(min, max)| max - min);
         let spans = [span(0), span(1), span(2)];
-        let mut left_out = 2;
-        for c in [1, 0] {
+        let mut others = [2, 1, 0].into_iter().filter(|c| Some(*c) != shown);
+        let mut left_out = others.next().unwrap_or(2);
+        for c in others {
             // a coordinate that only trembles is not preferred to one that does not move at all
             if spans[c] < spans[left_out] - 1e-9 {
                 left_out = c;

@@ -38,6 +38,15 @@ impl Track {
         Self::of(None, quanta, rows)
     }
 
+    /// Rows at `ticks`, one each, which the page has already.
+    pub(super) fn at<R: AsRef<[f64]>>(
+        ticks: &[usize],
+        quanta: &[f64],
+        rows: impl Iterator<Item = R>,
+    ) -> Self {
+        Self::of(Some(ticks), quanta, rows)
+    }
+
     /// Rows at `ticks`, one each, between which the way is `within` of the run's \[m or rad\].
     pub(super) fn through<R: AsRef<[f64]>>(
         ticks: &[usize],

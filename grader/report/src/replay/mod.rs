@@ -11,6 +11,7 @@ mod motion;
 mod nodes;
 mod record;
 mod shapes;
+mod wanted;
 
 use kinemark_sim::kinematics::FramePoses;
 use kinemark_sim::model::robot::{Frame, Robot};
@@ -123,7 +124,8 @@ impl<'a> Replay<'a> {
         let moments: Vec<u64> = events.iter().map(|event| event.tick).collect();
         let step_s = run.trace.step_s;
         let tracked = self.tracked(ticks, &moments);
-        let steps = tick_column(&steps(step_s, ticks, &moments));
+        let stepped = steps(step_s, ticks, &moments);
+        let steps = tick_column(&stepped);
         let tens = (ticks as f64 * step_s / 10.0).max(1.0);
         let most = ((tens * MOST_CHARACTERS as f64) as usize).saturating_sub(steps.len());
         let mut tracks = tracked.tracks(step_s, most);
@@ -148,6 +150,7 @@ impl<'a> Replay<'a> {
             meshes: tracked.nodes.meshes.records(),
             tcp,
             q,
+            wanted: wanted::velocity(run, &stepped),
             tracks: nodes,
             lab: self.lab(),
             frames: self.frames(),

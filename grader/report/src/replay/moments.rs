@@ -1,6 +1,7 @@
 //! The moments worth a mark: what happened, who pressed on whom, and where points were lost first.
 
 use kinemark_sim::watch::event::{Event, EventKind};
+use nalgebra::Vector3;
 use serde::Serialize;
 
 use crate::initial_contact::begins_initial;
@@ -38,6 +39,9 @@ pub(super) struct ContactMark {
     second: String,
     point: [f64; 3],
     impulse: f64,
+    /// The greatest normal force \[N\], and its direction on the second party; none where it has no direction.
+    force: f64,
+    normal: Option<[f64; 3]>,
 }
 
 impl ContactMark {
@@ -133,6 +137,20 @@ fn breaches(task: Option<&TaskGrade>) -> Vec<EventMark> {
     first.take(MOST_OF_A_KIND).collect()
 }
 
+/// A direction to four decimals; none of what is no unit vector.
+fn direction(normal: &Vector3<f64>) -> Option<[f64; 3]> {
+    let is_direction = (normal.norm() - 1.0).abs() < 1e-6;
+    is_direction.then(|| (*normal).map(rounded).into())
+}
+
+/// A number to four decimals.
+fn rounded(value: f64) -> f64 {
+    match value.is_finite() {
+        true => (value * 1e4).round() / 1e4,
+        false => 0.0,
+    }
+}
+
 /// Contacts of a run, in the order they began.
 pub(super) fn contacts(run: &TaskRun) -> Vec<ContactMark> {
     let names = run.names();
@@ -147,6 +165,8 @@ pub(super) fn contacts(run: &TaskRun) -> Vec<ContactMark> {
         second: party(contact.parties[1]),
         point: contact.p_first_in_world.into(),
         impulse: contact.impulse_n_s,
+        force: rounded(contact.peak_force_n),
+        normal: direction(&contact.peak_normal_in_world),
     });
     mark.collect()
 }

@@ -21,6 +21,9 @@ pub(super) struct Record<'a> {
     pub(super) meshes: Vec<MeshRecord>,
     pub(super) tcp: Track,
     pub(super) q: Vec<Track>,
+    /// The velocity of the TCP by the command at each of the ticks stepped through, where velocities are commanded \[m/s\].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) wanted: Option<Track>,
     pub(super) tracks: Vec<Track>,
     pub(super) frames: Vec<FrameRecord>,
     pub(super) joints: Vec<JointRecord>,

@@ -157,6 +157,7 @@ mod tests {
             last_tick: first_tick + 9,
             peak_force_n: peak_n,
             peak_tick: first_tick + 4,
+            peak_normal_in_world: nalgebra::Vector3::zeros(),
             impulse_n_s,
             depth_m: 0.0,
             p_first_in_world: Vector3::zeros(),
