@@ -61,6 +61,43 @@ fn a_log_becomes_a_folder_of_tables_and_one_topic_a_stream() {
 
 /// What people keep in a report's folder is never lost, on whatever level.
 #[test]
+fn one_wide_table_has_all_topics_at_the_times_of_one() {
+    let bed = graded();
+    let export = ["log", "export", "out/move/run.mcap", "--csv"];
+    let with = |more: &[&str]| bed.run(&[&export[..], more].concat());
+    let printed = with(&["--wide"]);
+    assert_eq!(printed.code, Some(0), "{}", printed.stderr);
+    assert!(
+        printed.stderr.contains("`/scene` has"),
+        "{}",
+        printed.stderr
+    );
+    let narrow = with(&["--topic", "/signals"]).stdout;
+    let (head, rest) = printed.stdout.split_once('\n').expect("a head");
+    let (narrow_head, narrow_rest) = narrow.split_once('\n').expect("a head");
+    // the clock's own columns come first, with its rows
+    assert!(head.starts_with(narrow_head), "{head}");
+    assert!(
+        head.contains("\"joint_states.joints.shoulder.position\""),
+        "{head}"
+    );
+    assert_eq!(rest.lines().count(), narrow_rest.lines().count());
+    for (wide, narrow) in rest.lines().zip(narrow_rest.lines()) {
+        assert!(wide.starts_with(narrow), "{wide}");
+    }
+    let written = with(&["--wide", "--out", "table"]);
+    assert_eq!(written.code, Some(0), "{written:?}");
+    let file = std::fs::read_to_string(bed.path("table/wide.csv")).expect("a table");
+    assert!(file == printed.stdout);
+    let refused = with(&["--wide", "--topic", "/sginals"]);
+    assert_eq!(refused.code, Some(2), "{refused:?}");
+    assert!(
+        refused.stderr.contains("no topic `/sginals`"),
+        "{refused:?}"
+    );
+}
+
+#[test]
 fn grading_again_keeps_exports_and_refuses_what_is_somebodys_own() {
     let bed = graded();
     let export = ["log", "export", "out/move/run.mcap", "--csv"];

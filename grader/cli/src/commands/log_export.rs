@@ -8,13 +8,13 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use kinemark_course::device_name::is_device;
-use kinemark_report::log::{ReadError, Table, Tables, tables, write_csv};
+use kinemark_report::log::{ReadError, Table, Tables, Wide, tables, write_csv, write_wide};
 use kinemark_report::visible::visible;
 use serde::{Deserialize, Serialize};
 
 use crate::beneath::{self, Unread};
 use crate::disk::{self, plain};
-use crate::failure::Failure;
+use crate::failure::{self, Failure};
 use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::{output, report_folder};
 
@@ -22,7 +22,8 @@ use crate::{output, report_folder};
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark log export out/move/run.mcap --csv\n  \
-    kinemark log export out/move/run.mcap --csv --topic /signals > signals.csv\n\n\
+    kinemark log export out/move/run.mcap --csv --topic /signals > signals.csv\n  \
+    kinemark log export out/move/run.mcap --csv --wide > run.csv\n\n\
     Writes a CSV file per topic to the folder run-csv beside the log, with export.json, which lists them; an earlier export \
     there is replaced.\n\
     Reads every MCAP log with JSON messages, or with protobuf messages and their schemas. See docs/watch-and-compare.md.\n\
@@ -37,6 +38,10 @@ pub(crate) struct Args {
     /// Only this topic; without --out it is printed
     #[arg(long, value_name = "TOPIC")]
     pub(crate) topic: Option<String>,
+    /// One table of all topics: at each message of --topic what every other topic last said [default: those of /signals]; without --out it is
+    /// printed
+    #[arg(long)]
+    pub(crate) wide: bool,
     /// Folder to write to; an earlier export there is replaced [default: the log's name with -csv, beside it]
     #[arg(long, short, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
@@ -59,6 +64,9 @@ struct Export {
     files: Vec<Exported>,
     /// Topics that are not JSON.
     not_exported: Vec<NotExported>,
+    /// Topics with too many columns for one wide table.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    left_out: Vec<String>,
 }
 
 /// One table.
@@ -85,6 +93,9 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let log = read(&args.log)?;
     let broken = |error: ReadError| broken(&args.log, &error);
     let found = tables(&log).map_err(broken)?;
+    if args.wide {
+        return wide(args, &log, &found);
+    }
     let wanted = |table: &Table| {
         args.topic
             .as_ref()
@@ -125,14 +136,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     refuse_foreign(&out)?;
     let export = write(&log, &found, wanted, &out).map_err(|why| match why {
         Why::Log(error) => broken(error),
-        Why::Disk(error) => Failure::fault(
-            format!(
-                "the tables cannot be written to `{}`: {}",
-                out.display(),
-                plain(&error)
-            ),
-            "free some space or choose another folder with --out; nothing half-written is left",
-        ),
+        Why::Disk(error) => unwritten(&out, &error),
         Why::Other(failure) => failure,
     })?;
     if args.json {
@@ -141,6 +145,92 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         output::print(&text(&export, &out))?;
     }
     Ok(ExitCode::SUCCESS)
+}
+
+/// The topic whose messages are the rows of one wide table.
+const CLOCK: &str = "/signals";
+/// The file of a wide table in a folder.
+const WIDE: &str = "wide.csv";
+
+/// Writes the log as one table: to a folder, or printed.
+fn wide(args: &Args, log: &[u8], found: &Tables) -> Result<ExitCode, Failure> {
+    let clock = args.topic.as_deref().unwrap_or(CLOCK);
+    let Some(wide) = Wide::of(&found.tables, clock) else {
+        return Err(no_topic(&args.log, clock, found));
+    };
+    let broken = |error: ReadError| broken(&args.log, &error);
+    let Some(out) = &args.out else {
+        if args.json {
+            return Err(Failure::usage(
+                "--json with --wide needs --out: the table is printed".to_owned(),
+                "add --out DIR, or leave --json out",
+            ));
+        }
+        let mut printed = BufWriter::new(std::io::stdout().lock());
+        let done = write_wide(log, &wide, &mut printed);
+        let done = done.and_then(|()| printed.flush().map_err(ReadError::Write));
+        done.or_else(|error| match error {
+            // a reader that has gone away is no failure
+            ReadError::Write(why) if why.kind() == ErrorKind::BrokenPipe => Ok(()),
+            other => Err(broken(other)),
+        })?;
+        for (topic, columns) in &wide.left_out {
+            let topic = visible(topic);
+            failure::note_in_words(&format!(
+                "`{topic}` has {columns} columns and is left out; `--topic {topic}` without --wide writes it"
+            ));
+        }
+        return Ok(ExitCode::SUCCESS);
+    };
+    refuse_foreign(out)?;
+    let unwritten = |error: std::io::Error| unwritten(out, &error);
+    let fresh = FreshFolder::beside(out).map_err(unwritten)?;
+    let file = File::create(fresh.path().join(WIDE)).map_err(unwritten)?;
+    write_wide(log, &wide, BufWriter::new(file)).map_err(broken)?;
+    let described = found.tables.iter().find(|table| table.topic == clock);
+    let described = described.into_iter().flat_map(|table| &table.described);
+    let foreign = found.foreign.iter().map(|(topic, encoding)| NotExported {
+        topic: topic.clone(),
+        encoding: encoding.clone(),
+    });
+    let export = Export {
+        format: FORMAT.to_owned(),
+        files: vec![Exported {
+            file: WIDE.to_owned(),
+            topic: clock.to_owned(),
+            rows: wide.rows,
+            columns: wide.columns.len() + 1,
+            described: described
+                .map(|(column, what)| (column.to_string(), what.clone()))
+                .collect(),
+        }],
+        not_exported: foreign.collect(),
+        left_out: wide
+            .left_out
+            .iter()
+            .map(|(topic, _)| topic.clone())
+            .collect(),
+    };
+    let list = output::json(&export)?;
+    fresh.write(LIST, list.as_bytes()).map_err(unwritten)?;
+    fresh.put_in_place(&[]).map_err(unwritten)?;
+    if args.json {
+        output::print_json(&export)?;
+    } else {
+        output::print(&text(&export, out))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn unwritten(out: &Path, error: &std::io::Error) -> Failure {
+    Failure::fault(
+        format!(
+            "the tables cannot be written to `{}`: {}",
+            out.display(),
+            plain(error)
+        ),
+        "free some space or choose another folder with --out; nothing half-written is left",
+    )
 }
 
 /// What a log holds, where the path is one.
@@ -239,6 +329,7 @@ fn write(
         format: FORMAT.to_owned(),
         files: Vec::new(),
         not_exported: Vec::new(),
+        left_out: Vec::new(),
     };
     let mut files = Vec::new();
     for table in &found.tables {
@@ -335,6 +426,10 @@ fn text(export: &Export, out: &Path) -> String {
             visible(&topic.topic),
             visible(&topic.encoding)
         );
+    }
+    for topic in &export.left_out {
+        let topic = visible(topic);
+        text += &format!("left out: `{topic}` has too many columns for one table\n");
     }
     text
 }

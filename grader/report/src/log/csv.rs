@@ -16,7 +16,7 @@ use super::read::{LogMessage, ReadError, messages, most_of};
 use super::schema::well_known;
 
 /// Tables that are larger, all together, open nowhere.
-const MOST_TABLES_BYTES: u64 = 2 << 30;
+pub(super) const MOST_TABLES_BYTES: u64 = 2 << 30;
 /// Characters of what a schema says of a column.
 const MOST_OF_A_DESCRIPTION: usize = 200;
 /// Topics of a log, each of which becomes a file.
@@ -145,24 +145,20 @@ pub fn write_csv<W: Write>(
     let mut writers = Vec::new();
     for (table, out) in tables.iter().zip(out) {
         let Some(out) = out else { continue };
-        // a text with `;` or a tab in it would be two fields where these stand between fields
-        let writer = csv::WriterBuilder::new()
-            .quote_style(csv::QuoteStyle::NonNumeric)
-            .from_writer(Bounded { out, left: &left });
         let mut writer = Rows {
-            table,
-            writer,
-            at: table.columns.iter().map(AsRef::as_ref).zip(1..).collect(),
+            writer: writer(out, &left),
+            fields: Fields::of(table),
             row: vec![String::new(); table.columns.len() + 1],
-            form: None,
-            written: 0,
         };
         writer.head()?;
         writers.push(writer);
     }
     messages(log, &mut |message| {
         let topic = message.channel.topic.as_str();
-        match writers.iter_mut().find(|rows| rows.table.topic == topic) {
+        match writers
+            .iter_mut()
+            .find(|rows| rows.fields.table.topic == topic)
+        {
             Some(rows) if Form::is_read(message.channel) => rows.row(&message),
             _ => Ok(()),
         }
@@ -173,44 +169,76 @@ pub fn write_csv<W: Write>(
     })
 }
 
-/// One table being written.
-struct Rows<'a, W: Write> {
-    table: &'a Table,
-    writer: csv::Writer<Bounded<'a, W>>,
-    /// Where each column is in the row.
+/// A writer of tables that all spreadsheets read.
+pub(super) fn writer<W: Write>(out: W, left: &Cell<u64>) -> csv::Writer<Bounded<'_, W>> {
+    // a text with `;` or a tab in it would be two fields where these stand between fields
+    csv::WriterBuilder::new()
+        .quote_style(csv::QuoteStyle::NonNumeric)
+        .from_writer(Bounded { out, left })
+}
+
+/// The messages of one topic as fields of a row.
+pub(super) struct Fields<'a> {
+    pub(super) table: &'a Table,
+    /// Where each column is among them.
     at: HashMap<&'a str, usize>,
-    /// The row being written, used again for the next.
-    row: Vec<String>,
     /// How its messages are written, once one has come.
     form: Option<Form>,
-    written: u64,
+    read: u64,
+}
+
+impl<'a> Fields<'a> {
+    pub(super) fn of(table: &'a Table) -> Self {
+        Self {
+            table,
+            at: table.columns.iter().map(AsRef::as_ref).zip(0..).collect(),
+            form: None,
+            read: 0,
+        }
+    }
+
+    /// Writes the next message into `row`, a field a column.
+    pub(super) fn fill(
+        &mut self,
+        message: &LogMessage<'_>,
+        row: &mut [String],
+    ) -> Result<(), ReadError> {
+        self.read += 1;
+        let form = match self.form.take() {
+            Some(form) => form,
+            None => Form::of(message.channel)?,
+        };
+        let value = form.parse(message, self.read)?;
+        self.form = Some(form);
+        row.iter_mut().for_each(String::clear);
+        let placed = walk(&value, &mut |name, leaf| {
+            if let Some(field) = self.at.get(name).and_then(|at| row.get_mut(*at)) {
+                *field = written(leaf);
+            }
+            Ok(())
+        });
+        placed.map_err(|why| too_wide(&self.table.topic, why))
+    }
+}
+
+/// One table being written.
+struct Rows<'a, W: Write> {
+    writer: csv::Writer<Bounded<'a, W>>,
+    fields: Fields<'a>,
+    /// The row being written, used again for the next: the time, then a field a column.
+    row: Vec<String>,
 }
 
 impl<W: Write> Rows<'_, W> {
     fn head(&mut self) -> Result<(), ReadError> {
-        let names = self.table.columns.iter().map(|name| harmless(name));
+        let names = self.fields.table.columns.iter().map(|name| harmless(name));
         let head = std::iter::once(TIME.to_owned()).chain(names);
         self.writer.write_record(head).map_err(unwritten)
     }
 
     fn row(&mut self, message: &LogMessage<'_>) -> Result<(), ReadError> {
-        self.written += 1;
-        let form = match self.form.take() {
-            Some(form) => form,
-            None => Form::of(message.channel)?,
-        };
-        let value = form.parse(message, self.written)?;
-        self.form = Some(form);
-        self.row.iter_mut().for_each(String::clear);
         self.row[0] = time_s(message.log_time_ns);
-        let (at, row) = (&self.at, &mut self.row);
-        let placed = walk(&value, &mut |name, leaf| {
-            if let Some(field) = at.get(name).and_then(|at| row.get_mut(*at)) {
-                *field = written(leaf);
-            }
-            Ok(())
-        });
-        placed.map_err(|why| too_wide(&self.table.topic, why))?;
+        self.fields.fill(message, &mut self.row[1..])?;
         self.writer.write_record(&self.row).map_err(unwritten)
     }
 }
@@ -221,7 +249,7 @@ impl<W: Write> Rows<'_, W> {
 struct Spent;
 
 /// A writer that has an end, the same for all tables of a log.
-struct Bounded<'a, W> {
+pub(super) struct Bounded<'a, W> {
     out: W,
     left: &'a Cell<u64>,
 }
@@ -265,13 +293,13 @@ fn described(schema: &Schema<'_>, columns: &[Arc<str>]) -> BTreeMap<Arc<str>, St
 
 /// How the messages of a topic are written.
 #[derive(Debug, Clone)]
-enum Form {
+pub(super) enum Form {
     Json,
     Protobuf(MessageDescriptor),
 }
 
 impl Form {
-    fn is_read(channel: &Channel<'_>) -> bool {
+    pub(super) fn is_read(channel: &Channel<'_>) -> bool {
         let schema = channel.schema.as_ref();
         match channel.message_encoding.as_str() {
             "json" => true,
@@ -343,7 +371,7 @@ fn too_wide(topic: &str, why: TooWide) -> ReadError {
     }
 }
 
-fn unwritten(error: csv::Error) -> ReadError {
+pub(super) fn unwritten(error: csv::Error) -> ReadError {
     match error.into_kind() {
         csv::ErrorKind::Io(error) => unfit(error),
         // rows have as many fields as the head, and nothing is read
@@ -351,7 +379,7 @@ fn unwritten(error: csv::Error) -> ReadError {
     }
 }
 
-fn unfit(error: std::io::Error) -> ReadError {
+pub(super) fn unfit(error: std::io::Error) -> ReadError {
     if error.get_ref().is_some_and(|inner| inner.is::<Spent>()) {
         return ReadError::TooLarge {
             what: "its tables take many times its own room".to_owned(),
@@ -361,7 +389,7 @@ fn unfit(error: std::io::Error) -> ReadError {
 }
 
 /// A time in seconds, to the nanosecond, without zeros at its end.
-fn time_s(ns: u64) -> String {
+pub(super) fn time_s(ns: u64) -> String {
     let text = format!("{}.{:09}", ns / 1_000_000_000, ns % 1_000_000_000);
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
@@ -383,7 +411,7 @@ fn written(value: &Json) -> String {
 ///
 /// Source: OWASP, *CSV Injection*: fields that begin with `=`, `+`, `-`, `@`, a tab, a carriage return, a line feed, or the
 /// full-width forms of the signs begin with an apostrophe instead.
-fn harmless(text: &str) -> String {
+pub(super) fn harmless(text: &str) -> String {
     let is_formula = |c: char| {
         matches!(
             c,

@@ -18,8 +18,10 @@ mod scene;
 mod schema;
 mod signals;
 mod tree;
+mod wide;
 
 pub use csv::{Table, Tables, tables, write_csv};
 pub use layout::layout;
 pub use mcap::{Attachment, LogError, mcap};
 pub use read::ReadError;
+pub use wide::{Wide, write_wide};
