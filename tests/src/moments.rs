@@ -90,7 +90,7 @@ fn a_loss_is_marked_where_the_band_was_left() {
         .as_str()
         .expect("words")
         .to_owned();
-    assert_eq!(text, "Lost: On the first line: beyond 8.2 mm from here on");
+    assert_eq!(text, "On the first line: beyond 8.2 mm from here on");
     let board = board(&graded, "knock");
     assert!(board.contains(&link.replace('&', "&amp;")), "a panel");
     assert!(

@@ -216,6 +216,11 @@ export class Plot {
     return this.hands.map((hand) => hand.panel).filter((panel) => panel.kind === "time");
   }
 
+  /** Whether a check judged what it shows. */
+  private get isJudged(): boolean {
+    return this.timePanels().some(({ full }) => full !== undefined);
+  }
+
   /** The box of all panels, at the cursor. */
   private beside(): void {
     const panels = this.timePanels();
@@ -492,6 +497,8 @@ export class Plot {
       const label = name || !panel.name ? String(series.name) : `${panel.name}: ${series.name}`;
       return element("p", {}, swatch, element("bdi", {}, label), element("span", {}, text));
     });
+    // a check may judge a part of the run only
+    if (lines.length === 0) lines.push(element("p", { class: "quiet" }, this.isJudged ? "not judged here" : "nothing is drawn here"));
     this.box.replaceChildren(head, ...lines);
     if (more > 0) this.box.append(element("p", { class: "quiet" }, `and ${more} more`));
   }

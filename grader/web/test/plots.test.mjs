@@ -175,3 +175,18 @@ test("where a signal chatters its band is light, with a line through its middle,
   assert.match(await page.locator(".replay-values").first().textContent(), /shoulder-1(\.0*)? … 1(\.0*)?\u00a0rad/);
   await close();
 });
+
+test("where a check judged nothing, a plot says so", async () => {
+  // the lines of the made-up plot end half way
+  const half = html([replay()]).replace(/(stroke-width="20" d="m)([^"]*)"/g, (whole, head, steps) => (steps.split(" ").length < 40 ? whole : `${head}${steps.split(" ").slice(0, 202).join(" ")}"`));
+  const { page, wrong, close } = await open(write("half.html", half));
+  await time(page).waitFor();
+  const box = page.locator("figure[data-panels] .replay-values").first();
+  await page.mouse.move(...(await at(page, 0.25)));
+  assert.match(await box.textContent(), /shoulder.*elbow/);
+  await page.mouse.move(...(await at(page, 0.8)));
+  assert.match(await box.textContent(), /not judged here/);
+  assert.doesNotMatch(await box.textContent(), /shoulder/);
+  assert.deepEqual(wrong, []);
+  await close();
+});

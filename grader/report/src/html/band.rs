@@ -50,7 +50,7 @@ pub(super) fn measure_text(measure: &Measure) -> MeasureText {
     }
 }
 
-/// A bar from where all points are earned to where none are, with a mark at the value; it says nothing that the words do not.
+/// A bar from where all points are earned to where none are, with both numbers and a mark at the value; it says nothing that the words do not.
 pub(super) fn gauge(measure: &Measure) -> Markup {
     // 0 at full, 1 at zero, drawn from -0.5 to 1.5
     let span = measure.zero - measure.full;
@@ -60,8 +60,9 @@ pub(super) fn gauge(measure: &Measure) -> Markup {
         .map(|value| (value - measure.full) / span);
     let x = |at: f64| 20.0 + 80.0 * (at.clamp(-0.5, 1.5) + 0.5);
     let label = |x: f64| format!("{x:.1}");
+    let Measured { full, zero, .. } = Measured::of(measure);
     html! {
-        svg class="gauge" viewBox="18 0 164 22" aria-hidden="true" focusable="false" {
+        svg class="gauge" viewBox="18 0 164 34" aria-hidden="true" focusable="false" {
             rect class="full" x="20" y="9" width="40" height="6" rx="1" {}
             rect class="partial" x="60" y="9" width="80" height="6" {}
             rect class="none" x="140" y="9" width="40" height="6" rx="1" {}
@@ -71,6 +72,8 @@ pub(super) fn gauge(measure: &Measure) -> Markup {
                 @else if at > 1.5 { path class="mark" d="M173 6 L181 12 L173 18 z" {} }
                 @else { rect class="mark" x=(label(x - 2.0)) y="3" width="4" height="18" rx="2" {} }
             }
+            text x="60" y="31" text-anchor="middle" { (visible(&full)) }
+            text x="140" y="31" text-anchor="middle" { (visible(&zero)) }
         }
     }
 }

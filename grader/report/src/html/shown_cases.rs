@@ -38,7 +38,7 @@ pub(super) fn drawn_cases(shown: &ShownCases, cases: &[CaseGrade]) -> Markup {
         }
         @if !numbers.is_empty() {
             p class="quiet" { "Numbers of answers: crossed out what is wrong, below it what is right." }
-            div class="compared" {
+            div class="entries" {
                 @for case in numbers {
                     @for numbers in case.numbers.iter().filter(|numbers| numbers.numbers.iter().any(|number| !number.is_right)) {
                         (compared(&case.name, numbers))

@@ -131,7 +131,7 @@ fn breaches(task: Option<&TaskGrade>) -> Vec<EventMark> {
         Some(EventMark {
             tick: first.tick,
             kind: "breach",
-            text: plain(&format!("Lost: {}{why}", check.title)),
+            text: plain(&format!("{}{why}", check.title)),
         })
     });
     first.take(MOST_OF_A_KIND).collect()
