@@ -102,6 +102,8 @@ export interface Replay {
   /** The velocity of the TCP that was commanded at every step, in the lab frame \[m/s\]; null where velocities are not what is commanded. */
   readonly wanted: Track | null;
   readonly joints: readonly Joint[];
+  /** The numbers of another run beside this one, at every step. */
+  readonly other: { readonly tcp: Track; readonly q: ReadonlyArray<{ readonly name: string; readonly track: Track }> } | null;
   readonly reference: { readonly periodS: number; readonly path: Track } | null;
   readonly goals: readonly Goal[];
   readonly paths: readonly Path[];
@@ -113,7 +115,7 @@ export interface Replay {
 }
 
 /** What is drawn, without how it moved. */
-export type Scenery = Omit<Replay, "moves" | "task" | "title" | "joints">;
+export type Scenery = Omit<Replay, "moves" | "task" | "title" | "joints" | "other">;
 
 const MOST_NODES = 1e6;
 
@@ -317,6 +319,10 @@ export function read(json: string): Replay {
     tcp: resampled(tcp, ticks),
     wanted: root.of("wanted").maybe((value) => value.track(3, ticks)),
     joints,
+    other: root.of("other").maybe((value) => ({
+      tcp: value.of("tcp").track(3, ticks),
+      q: value.of("q").list((one) => ({ name: one.of("name").text(), track: one.of("track").track(1, ticks) })),
+    })),
     reference: root.of("reference").maybe((value) => ({ periodS: value.of("periodS").positive(), path: value.of("path").track(3, null) })),
     goals: list("goals", (value) => ({ position: value.of("position").numbers(3), ...tolerance(value) })),
     paths: list("paths", (value) => ({

@@ -2,6 +2,7 @@
 
 import type { Way } from "./between";
 import type { Replay } from "./data";
+import type { Track } from "./track";
 import { element } from "./dom";
 import { breakable, decimals, fixed } from "./words";
 import type { World } from "./world";
@@ -17,6 +18,8 @@ export class Readout {
   private readonly tcp: HTMLElement[] = [];
   private readonly q: HTMLElement[] = [];
   private readonly inDegrees: Array<HTMLElement | null> = [];
+  /** The numbers of another run, where there is one, each with the track and the column that it is from. */
+  private readonly others: Array<{ readonly cell: HTMLElement; readonly track: Track; readonly column: number }> = [];
   private written = 0;
 
   constructor(
@@ -36,13 +39,28 @@ export class Readout {
       into.push(made);
       return made;
     };
+    const { other } = replay;
+    const beside = (track: Track | undefined, column: number): HTMLElement[] => {
+      if (!other) return [];
+      const cell = element("span", { class: "replay-other" }, "–");
+      if (track) this.others.push({ cell, track, column });
+      return [cell];
+    };
+    if (other) {
+      const head = (): HTMLElement => element("tr", {}, element("td"), element("th", { scope: "col" }, String(replay.mainLabel ?? "A")), element("th", { scope: "col" }, String(replay.ghostLabel ?? "B")), element("td"));
+      tcp.append(head());
+      joints.append(head());
+    }
     ["x", "y", "z"].forEach((axis, i) => {
       const value = number(this.tcp, "data-axis", i);
-      row(tcp, axis, value, "m");
+      row(tcp, axis, value, ...beside(other?.tcp, i), "m");
     });
     replay.joints.forEach((joint, i) => {
       const value = number(this.q, "data-joint", i);
-      if (joint.unit === "rad") {
+      if (other) {
+        this.inDegrees.push(null);
+        row(joints, joint.name, value, ...beside(other.q.find(({ name }) => name === joint.name)?.track, 0), joint.unit);
+      } else if (joint.unit === "rad") {
         const degrees = element("span");
         this.inDegrees.push(degrees);
         const cell = element("span", { class: "quiet" }, degrees, "°");
@@ -52,7 +70,7 @@ export class Readout {
         row(joints, joint.name, value, joint.unit, "");
       }
     });
-    this.element = element("div", { class: "replay-readout" }, time, tcp);
+    this.element = element("div", { class: other ? "replay-readout two" : "replay-readout" }, time, tcp);
     if (replay.joints.length > 0) this.element.append(element("div", { class: "replay-joints", ...(replay.joints.length > 8 ? { tabindex: "0", role: "group", "aria-label": "Joints" } : {}) }, joints));
     this.write();
   }
@@ -69,6 +87,7 @@ export class Readout {
     this.t.textContent = world.t.toFixed(Math.max(2, decimals(replay.stepS)));
     this.tick.textContent = String(Math.round(world.t / replay.stepS));
     const { tcp, q } = replay.moves;
+    for (const { cell, track, column } of this.others) cell.textContent = fixed(between(track, column, world.progress), 4);
     for (let i = 0; i < 3; i++) this.tcp[i].textContent = about(tcp) + fixed(world.tcp[i], 4);
     for (let i = 0; i < this.q.length; i++) {
       this.q[i].textContent = about(q[i]) + fixed(world.q[i], 4);
@@ -81,3 +100,11 @@ export class Readout {
 /** What stands before a number that may be farther than this from the run's: between frames of what is recorded less accurately. */
 const ROUGH = 1e-3;
 const about = (way: Way): string => (way.within > ROUGH && !way.isFrame ? "≈ " : "");
+
+/** The number of a column at a step, on the line between two steps. */
+function between({ values, width, count }: Track, column: number, progress: number): number {
+  const step = Math.min(count - 1, Math.floor(progress));
+  const next = Math.min(count - 1, step + 1);
+  const share = progress - step;
+  return values[step * width + column] + share * (values[next * width + column] - values[step * width + column]);
+}

@@ -2,8 +2,8 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { replay, truth } from "./fixture.mjs";
-import { menu, near, one, open, seek } from "./made.mjs";
+import { encode, page as html, replay, truth } from "./fixture.mjs";
+import { menu, near, one, open, seek, write } from "./made.mjs";
 import { load } from "./modules.mjs";
 import { frames, soon } from "./waiting.mjs";
 
@@ -70,5 +70,29 @@ test("the picture follows the TCP where that is asked for", async () => {
   const followed = await moved();
   // its name stands beside its axes, which turn
   assert.ok(followed < 0.5 * still, `${followed} px, ${still} px without`);
+  await close();
+});
+
+test("a comparison has the numbers of both runs side by side", async () => {
+  const run = { ...replay({ seconds: 0.5 }), mainLabel: "A", ghostLabel: "B" };
+  const { ticks } = read(JSON.stringify(run));
+  const steps = [...ticks];
+  const coded = (row, quanta) => {
+    const { within, ticks, ...rest } = encode(steps.map(row), quanta, steps);
+    return rest;
+  };
+  run.other = { tcp: coded((tick) => [0.001 * tick, 1, -2], [1e-4, 1e-4, 1e-4]), q: [{ name: "elbow", track: coded((tick) => [1 + 0.002 * tick], [1e-4]) }] };
+  const { page, wrong, close } = await open(write("both.html", html([run])));
+  await page.waitForSelector(".replay.on");
+  await seek(page, 0.25);
+  const cells = (table) => page.locator(`[data-readout=${table}] tr`).evaluateAll((rows) => rows.map((row) => [...row.children].map((cell) => cell.textContent)));
+  const [head, x, y] = await cells("tcp");
+  assert.deepEqual(head, ["", "A", "B", ""]);
+  assert.deepEqual([x[0], x[2], x[3]], ["x", "0.2500", "m"]);
+  assert.equal(y[2], "1.0000");
+  const [, shoulder, elbow] = await cells("q");
+  assert.deepEqual([shoulder[0], shoulder[2], shoulder[3]], ["shoulder", "–", "rad"]);
+  assert.deepEqual([elbow[0], elbow[2]], ["elbow", "1.5000"]);
+  assert.deepEqual(wrong, []);
   await close();
 });

@@ -169,7 +169,7 @@ fn section(index: usize, task: &TaskComparison, a: &GradedRun, b: &GradedRun) ->
                 }
             }
             @if !plots.is_empty() {
-                h3 { "What differs over time" }
+                h3 { "Both over time" }
                 div class="plots" {
                     @for plot in &plots {
                         (figure(plot, &task.name))

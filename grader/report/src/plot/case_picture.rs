@@ -248,7 +248,7 @@ mod tests {
         };
         let wrong = places([0.5, 1.0, 0.2], false);
         assert_eq!(
-            words(&[wrong.clone()]),
+            words(std::slice::from_ref(&wrong)),
             [
                 "arm at the joint positions given",
                 "where its TCP is",

@@ -1,4 +1,4 @@
-//! Pictures of how far two runs are from each other: their TCPs, their joints, their efforts.
+//! Pictures of two runs: how far their TCPs are apart, joints and efforts of both, and how far these are apart.
 
 use kinemark_sim::model::robot::Joint;
 use kinemark_sim::trace::Signal;
@@ -6,9 +6,9 @@ use kinemark_sim::trace::Signal;
 use super::axis::Axis;
 use super::canvas::{Entry, Swatch};
 use super::signals::{MOST_PANELS, line, most_points, time_s, values};
-use super::timeline::{Panel, Timeline};
+use super::timeline::{Line, Panel, Timeline};
 use super::{Plot, Plots, file_stem};
-use crate::palette::BLUE;
+use crate::palette::{BLUE, PURPLE_DASHED};
 use crate::visible::shortened;
 use kinemark_grader::record::comparison::FirstDifference;
 use kinemark_grader::record::graded::TaskRun;
@@ -26,15 +26,27 @@ pub fn differences(a: &TaskRun, b: &TaskRun, first: Option<&FirstDifference>) ->
         first,
     };
     let mut pictures = vec![("tcp-apart", both.tcp())];
-    for (name, title, of) in [
-        ("joints-apart", "Joint positions, B less A", Of::Positions),
-        ("effort-apart", "Joint efforts, B less A", Of::Efforts),
+    for (names, titles, of) in [
+        (
+            ["joints-both", "joints-apart"],
+            ["Joint positions of both", "Joint positions, B less A"],
+            Of::Positions,
+        ),
+        (
+            ["effort-both", "effort-apart"],
+            ["Joint efforts of both", "Joint efforts, B less A"],
+            Of::Efforts,
+        ),
     ] {
-        pictures.extend(
-            both.joints(title, of)
-                .into_iter()
-                .map(|picture| (name, picture)),
-        );
+        let legend = vec![
+            Entry::new(Swatch::Line(BLUE), "A"),
+            Entry::new(Swatch::Line(PURPLE_DASHED), "B"),
+        ];
+        let overlaid = both.joints(titles[0], legend, &|i, joint| both.overlaid(i, joint, of));
+        let legend = vec![Entry::new(Swatch::Line(BLUE), "difference")];
+        let apart = both.joints(titles[1], legend, &|i, joint| both.apart(i, joint, of));
+        pictures.extend(overlaid.into_iter().map(|picture| (names[0], picture)));
+        pictures.extend(apart.into_iter().map(|picture| (names[1], picture)));
     }
     for (name, picture) in pictures {
         let (svg, axes, head) = picture.draw();
@@ -81,50 +93,76 @@ impl Both<'_> {
             let apart = self.b.trace.tcp_position(tick) - self.a.trace.tcp_position(tick);
             (time_s(self.a, tick as u64), apart.norm())
         });
-        let panel = panel("distance of the TCPs", "m", apart.collect());
-        self.timeline("How far the TCPs are apart".to_owned(), vec![panel])
+        let lines = vec![line(apart.collect(), BLUE, false)];
+        let panel = panel("distance of the TCPs", "m", lines);
+        let legend = vec![Entry::new(Swatch::Line(BLUE), "difference")];
+        self.timeline("How far the TCPs are apart".to_owned(), vec![panel], legend)
     }
 
-    fn joints(&self, title: &str, of: Of) -> Vec<Timeline> {
+    /// A joint of both runs, each to its end.
+    fn overlaid(&self, i: usize, joint: &Joint, of: Of) -> Panel {
+        let is_held = matches!(of, Of::Efforts);
+        let of_run = |run: &TaskRun| -> Vec<(f64, f64)> {
+            let values = of.signal(run).component(i).enumerate();
+            values
+                .map(|(tick, value)| (time_s(run, tick as u64), value))
+                .collect()
+        };
+        let lines = vec![
+            line(of_run(self.a), BLUE, is_held),
+            line(of_run(self.b), PURPLE_DASHED, is_held),
+        ];
+        panel(&shortened(&joint.name, 40), of.unit(joint), lines)
+    }
+
+    /// A joint of B less that of A.
+    fn apart(&self, i: usize, joint: &Joint, of: Of) -> Panel {
+        let [a, b] = [self.a, self.b].map(|run| of.signal(run).component(i));
+        let apart = a.zip(b).take(self.ticks).enumerate();
+        let apart = apart.map(|(tick, (a, b))| (time_s(self.a, tick as u64), b - a));
+        let lines = vec![line(apart.collect(), BLUE, false)];
+        panel(&shortened(&joint.name, 40), of.unit(joint), lines)
+    }
+
+    fn joints(
+        &self,
+        title: &str,
+        legend: Vec<Entry>,
+        panel: &dyn Fn(usize, &Joint) -> Panel,
+    ) -> Vec<Timeline> {
         let joints: Vec<(usize, &Joint)> = self.a.robot.moving_joints().enumerate().collect();
         let parts = joints.len().div_ceil(MOST_PANELS);
         let pictures = joints.chunks(MOST_PANELS).enumerate().map(|(part, chunk)| {
-            let panels = chunk.iter().map(|(i, joint)| {
-                let pairs = of
-                    .signal(self.a)
-                    .component(*i)
-                    .zip(of.signal(self.b).component(*i));
-                let apart = pairs.take(self.ticks).enumerate();
-                let apart = apart.map(|(tick, (a, b))| (time_s(self.a, tick as u64), b - a));
-                panel(&shortened(&joint.name, 40), of.unit(joint), apart.collect())
-            });
+            let panels = chunk.iter().map(|(i, joint)| panel(*i, joint));
             let title = match parts {
                 1 => title.to_owned(),
                 _ => format!("{title} ({} of {parts})", part + 1),
             };
-            self.timeline(title, panels.collect())
+            self.timeline(title, panels.collect(), legend.clone())
         });
         pictures.collect()
     }
 
-    fn timeline(&self, title: String, panels: Vec<Panel>) -> Timeline {
+    fn timeline(&self, title: String, panels: Vec<Panel>, legend: Vec<Entry>) -> Timeline {
+        let lines = panels.iter().flat_map(|panel| &panel.lines);
+        let last = lines.filter_map(|line| line.points.last());
+        let end_s = last.fold(0.0, |end_s: f64, (t_s, _)| end_s.max(*t_s));
         let mark = self
             .first
             .map(|first| (first.time_s, format!("first apart ({})", first.signal)));
         Timeline {
             title,
             panels,
-            legend: vec![Entry::new(Swatch::Line(BLUE), "difference")],
+            legend,
             marks: mark.into_iter().collect(),
-            end_s: time_s(self.a, self.ticks.saturating_sub(1) as u64),
+            end_s,
             stopped_s: None,
             most_points: most_points(self.a),
         }
     }
 }
 
-fn panel(name: &str, unit: &str, points: Vec<(f64, f64)>) -> Panel {
-    let lines = vec![line(points, BLUE, false)];
+fn panel(name: &str, unit: &str, lines: Vec<Line>) -> Panel {
     Panel {
         heading: format!("{name} [{unit}]"),
         name: name.to_owned(),

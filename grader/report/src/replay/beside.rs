@@ -11,12 +11,14 @@ use super::frames::sound_ticks;
 use super::moments::MOST_OF_A_NAME;
 use super::motion::PLACE;
 use super::nodes::Nodes;
-use super::record::ReferencePath;
+use super::record::{OtherJoint, OtherRecord, ReferencePath};
 use crate::visible::shortened;
 use kinemark_grader::record::graded::{AskedPath, Goal, TaskRun};
 
 /// Time from one point of a TCP path to the next, where there are not too many \[s\].
 const PERIOD_S: f64 = 0.01;
+/// Numbers have four decimals.
+const NUMBER: f64 = 1e-4;
 /// Points of a TCP path.
 const MOST_POINTS: usize = 3_000;
 /// Segments of a path to follow that are drawn.
@@ -33,23 +35,59 @@ pub(super) fn tcp_path(theirs: &TaskRun, ours: &TaskRun) -> ReferencePath {
     let every = ((PERIOD_S / step_s).round() as usize)
         .max(ticks.div_ceil(MOST_POINTS))
         .max(1);
-    let ours_from_theirs = match (
+    let points = (0..ticks)
+        .step_by(every)
+        .map(|tick| tcp_at(theirs, tick, ours_from_theirs(ours, theirs).as_ref()));
+    ReferencePath {
+        period_s: every as f64 * step_s,
+        path: Track::even(&[PLACE; 3], points),
+    }
+}
+
+/// Where the frame of `theirs` is in that of `ours`, if it is another one.
+fn ours_from_theirs(ours: &TaskRun, theirs: &TaskRun) -> Option<Pose> {
+    match (
         world_from_lab(&ours.robot, &ours.seen_from),
         world_from_lab(&theirs.robot, &theirs.seen_from),
     ) {
         (Some(ours), Some(theirs)) if ours != theirs => Some(ours.inv_mul(&theirs)),
         // the same frame, or one that moves and so is the same at best
         _ => None,
-    };
-    let points = (0..ticks).step_by(every).map(|tick| {
-        let point = theirs.trace.tcp_position(tick);
-        let point = ours_from_theirs.map_or(point, |from| from * point);
-        [point.x, point.y, point.z]
-    });
-    ReferencePath {
-        period_s: every as f64 * step_s,
-        path: Track::even(&[PLACE; 3], points),
     }
+}
+
+fn tcp_at(run: &TaskRun, tick: usize, ours_from_theirs: Option<&Pose>) -> [f64; 3] {
+    let point = run.trace.tcp_position(tick);
+    let point = ours_from_theirs.map_or(point, |from| from * point);
+    [point.x, point.y, point.z]
+}
+
+/// TCP and joints of `theirs` at `ticks` of `ours`, for numbers beside those of `ours`; after its end, those of its end.
+pub(super) fn numbers(theirs: &TaskRun, ours: &TaskRun, ticks: &[usize]) -> Option<OtherRecord> {
+    let last = sound_ticks(&theirs.trace).checked_sub(1)?;
+    let at = |tick: &usize| {
+        // two runs may have steps of different length
+        let steps = *tick as f64 * ours.trace.step_s / theirs.trace.step_s;
+        (steps.round() as usize).min(last)
+    };
+    let from = ours_from_theirs(ours, theirs);
+    let tcp = ticks
+        .iter()
+        .map(|tick| tcp_at(theirs, at(tick), from.as_ref()));
+    let joints = theirs.robot.moving_joints().enumerate();
+    Some(OtherRecord {
+        tcp: Track::at(ticks, &[NUMBER; 3], tcp),
+        q: joints
+            .map(|(i, joint)| OtherJoint {
+                name: shortened(&joint.name, MOST_OF_A_NAME),
+                track: Track::at(
+                    ticks,
+                    &[NUMBER],
+                    ticks.iter().map(|tick| [theirs.trace.q.at(at(tick))[i]]),
+                ),
+            })
+            .collect(),
+    })
 }
 
 /// The pose of the frame in which a run's TCP is given, if it never moves.

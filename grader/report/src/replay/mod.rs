@@ -156,6 +156,7 @@ impl<'a> Replay<'a> {
             frames: self.frames(),
             joints: joints.collect(),
             reference,
+            other: other.and_then(|(other, _)| beside::numbers(other, run, &stepped)),
             goals: self.goals(),
             paths: self.paths(),
             contacts: self.contacts(),

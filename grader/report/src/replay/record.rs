@@ -28,6 +28,9 @@ pub(super) struct Record<'a> {
     pub(super) frames: Vec<FrameRecord>,
     pub(super) joints: Vec<JointRecord>,
     pub(super) reference: Option<ReferencePath>,
+    /// The numbers of another run beside this one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) other: Option<OtherRecord>,
     pub(super) goals: Vec<GoalRecord>,
     pub(super) paths: Vec<PathRecord<'a>>,
     pub(super) contacts: Vec<ContactMark>,
@@ -76,6 +79,19 @@ pub(super) struct ReferencePath {
     #[serde(rename = "periodS")]
     pub(super) period_s: f64,
     pub(super) path: Track,
+}
+
+/// TCP and joints of another run, at each of the ticks stepped through.
+#[derive(Debug, Serialize)]
+pub(super) struct OtherRecord {
+    pub(super) tcp: Track,
+    pub(super) q: Vec<OtherJoint>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct OtherJoint {
+    pub(super) name: String,
+    pub(super) track: Track,
 }
 
 #[derive(Debug, Serialize)]
