@@ -59,7 +59,7 @@ impl Wide {
 /// in its row, wherever they are in the log. What a topic has not said yet is an empty field.
 ///
 /// # Errors
-/// [`ReadError`] as for [`tables`], and where the output does not take it.
+/// [`ReadError`] as for [`super::tables`], and where the output does not take it.
 pub fn write_wide<W: Write>(log: &[u8], wide: &Wide, out: W) -> Result<(), ReadError> {
     let left = Cell::new(most_of(log, MOST_TABLES_BYTES));
     let mut writer = writer(out, &left);
