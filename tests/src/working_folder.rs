@@ -223,7 +223,8 @@ fn a_slip_in_a_name_or_in_its_file_is_answered() {
     bed.write("01-kinematics/kinemark.toml", "lap = \"01-kinematics\"\n");
     let ran = bed.run_in(&folder, &["grade"]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("unknown field `lap`"), "{ran:?}");
+    assert!(ran.stderr.contains("unknown key `lap`"), "{ran:?}");
+    assert!(ran.stderr.contains("did you mean `lab`?"), "{ran:?}");
     bed.write(
         "01-kinematics/kinemark.toml",
         "lab = \"01-kinematics\"\nvariant = \"ada\"\n",

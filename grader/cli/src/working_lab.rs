@@ -84,10 +84,9 @@ fn folder_file(submission: &Path) -> Result<Option<FolderFile>, Failure> {
     if !path.is_file() {
         return Ok(None);
     }
-    let help = "write `lab = \"NAME\"` into it, or remove it and name the lab";
     let text = typed_path::read(&path, "a note of the lab", MOST_SUBMISSION_BYTES)?;
-    let folder = FolderFile::parse(text.text())
-        .map_err(|why| Failure::usage(format!("{}: {why}", output::path(&path)), help))?;
+    let folder = FolderFile::parse(&text);
+    let folder = folder.map_err(|error| Failure::diagnostic(failure::USAGE, error))?;
     let variant = submission.with_file_name(VARIANT_FILE);
     if folder.variant.is_some() && !variant.exists() {
         return Err(Failure::usage(

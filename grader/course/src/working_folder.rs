@@ -8,8 +8,10 @@ use kinemark_grader::task::files::{Files, UNREAD_HELP};
 use kinemark_grader::task::model::Function;
 use kinemark_report::brief_page::{Brief, brief_page};
 use kinemark_report::replay::{ArmShows, LiveArm};
+use kinemark_sim::text::Source;
 use serde::{Deserialize, Serialize};
 
+use crate::course_text::{TextError, tables};
 use crate::editor_files::editor_files;
 use crate::language::Language;
 use crate::plugin_project::project_files;
@@ -47,12 +49,12 @@ impl FolderFile {
         }
     }
 
-    /// Reads the text of such a file.
+    /// Reads such a file.
     ///
     /// # Errors
-    /// In words, with line and column.
-    pub fn parse(text: &str) -> Result<Self, String> {
-        toml::from_str(text).map_err(|error| error.to_string().trim_end().to_owned())
+    /// The mistake with its place.
+    pub fn parse(source: &Source) -> Result<Self, TextError> {
+        tables(source)
     }
 
     fn text(&self) -> String {

@@ -7,6 +7,7 @@ use std::process::ExitCode;
 use kinemark_course::working_folder::{FOLDER_FILE, FolderFile, SUBMISSION_FILE};
 use kinemark_grader::lab::{Lab, load::lab_names};
 use kinemark_grader::record::quantity::points;
+use kinemark_sim::text::Source;
 use serde::Serialize;
 
 use crate::error_record::ErrorRecord;
@@ -62,7 +63,8 @@ fn working_folders() -> BTreeMap<String, PathBuf> {
     for folder in folders {
         let bytes = disk::bytes_of(&folder.join(FOLDER_FILE), MOST_FOLDER_FILE_BYTES);
         let text = bytes.ok().and_then(|bytes| String::from_utf8(bytes).ok());
-        if let Some(Ok(file)) = text.map(|text| FolderFile::parse(&text)) {
+        if let Some(Ok(file)) = text.map(|text| FolderFile::parse(&Source::new(FOLDER_FILE, text)))
+        {
             let shown = folder.strip_prefix(".").unwrap_or(&folder).to_owned();
             found.entry(file.lab).or_insert(shown);
         }
