@@ -23,7 +23,9 @@ for number, cell in enumerate(cells, 1):
     shown = tree.body.pop() if tree.body and isinstance(tree.body[-1], ast.Expr) else None
     exec(compile(tree, f"cell {number}", "exec"), names)
     if shown is not None:
-        print(repr(eval(compile(ast.Expression(shown.value), f"cell {number}", "eval"), names)))
+        value = eval(compile(ast.Expression(shown.value), f"cell {number}", "eval"), names)
+        if value is not None:
+            print(repr(value))
     ran += 1
 assert ran > 0, "the notebook has no code"
 print(f"{notebook.name}: {ran} cells ran")

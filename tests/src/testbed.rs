@@ -33,7 +33,12 @@ pub(crate) fn cargo() -> (Command, PathBuf) {
     // the environment that cargo sets for a test must not reach the build of another package
     for (name, _) in std::env::vars_os() {
         let name = name.to_string_lossy();
-        let kept = ["CARGO_HOME", "CARGO_TARGET_DIR", "CARGO_NET_OFFLINE"];
+        let kept = [
+            "CARGO_HOME",
+            "CARGO_INCREMENTAL",
+            "CARGO_NET_OFFLINE",
+            "CARGO_TARGET_DIR",
+        ];
         if name.starts_with("CARGO_") && !kept.contains(&name.as_ref()) {
             cargo.env_remove(name.as_ref());
         }
