@@ -19,16 +19,12 @@ const MOST_NUMBERS: usize = 64;
 
 /// What can be drawn of the cases; nothing where they have neither places nor wrong numbers.
 pub(super) fn drawn_cases(shown: &ShownCases, cases: &[CaseGrade]) -> Markup {
-    let with_places = |case: &ShownCase| case.places.clone().map(|places| (case.clone(), places));
-    let sketched: Vec<(ShownCase, ShownPlaces)> = shown
-        .cases
-        .iter()
-        .filter_map(with_places)
-        .take(MOST)
-        .collect();
+    let cases_of_places = shown.cases.iter();
+    let cases_of_places = cases_of_places.filter_map(|case| Some((case, case.places.as_ref()?)));
+    let sketched: Vec<(&ShownCase, &ShownPlaces)> = cases_of_places.take(MOST).collect();
     let numbers = shown.cases.iter().filter(|case| !case.numbers.is_empty());
     let numbers: Vec<&ShownCase> = numbers.take(MOST).collect();
-    let legend = case_legend(sketched.iter().map(|(_, places)| places));
+    let legend = case_legend(sketched.iter().map(|(_, places)| *places));
     html! {
         @if !sketched.is_empty() {
             ul class="legend" aria-hidden="true" { @for (swatch, words) in &legend { li { (PreEscaped(swatch)) (words) } } }

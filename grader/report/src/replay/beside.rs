@@ -35,9 +35,9 @@ pub(super) fn tcp_path(theirs: &TaskRun, ours: &TaskRun) -> ReferencePath {
     let every = ((PERIOD_S / step_s).round() as usize)
         .max(ticks.div_ceil(MOST_POINTS))
         .max(1);
-    let points = (0..ticks)
-        .step_by(every)
-        .map(|tick| tcp_at(theirs, tick, ours_from_theirs(ours, theirs).as_ref()));
+    let from = ours_from_theirs(ours, theirs);
+    let ticks = (0..ticks).step_by(every);
+    let points = ticks.map(|tick| tcp_at(theirs, tick, from.as_ref()));
     ReferencePath {
         period_s: every as f64 * step_s,
         path: Track::even(&[PLACE; 3], points),
