@@ -46,6 +46,26 @@ test("in a narrow window a small picture stays in the corner, until it is hidden
   await close();
 });
 
+for (const [width, least] of [[1440, 0.6], [390, 0.5]]) {
+  test(`on the whole screen the picture takes most of ${width} pixels, and fills its frame`, async () => {
+    const { page, wrong, close } = await open(one, { width, height: 900 });
+    await page.getByRole("button", { name: "Full screen" }).click();
+    await page.waitForFunction(() => document.fullscreenElement !== null);
+    // as large as the screen is, whatever the browser makes of it
+    const height = await page.evaluate(() => innerHeight);
+    await page.waitForFunction(() => {
+      const [frame, canvas] = [".replay-frame", ".replay-stage canvas"].map((part) => document.querySelector(part).getBoundingClientRect());
+      return Math.abs(frame.height - canvas.height) < 2 && Math.abs(frame.width - canvas.width) < 2;
+    });
+    const frame = await box(page, ".replay-frame");
+    assert.ok(frame.height > least * height, `${frame.height} of ${height}`);
+    const beside = await box(page, ".replay-beside");
+    assert.ok(width > 800 ? beside.left >= frame.right - 1 : beside.top >= frame.bottom, "the numbers lie over the picture");
+    assert.deepEqual(wrong, []);
+    await close();
+  });
+}
+
 test("a narrow window has two rows of buttons, and no plot is cut off", async () => {
   const { page, close } = await open(one, { width: 390, height: 800 });
   const rows = await page.locator(".replay-controls button:visible, .replay-controls select").evaluateAll((all) => new Set(all.map((button) => Math.round(button.getBoundingClientRect().bottom / 20))).size);
