@@ -4,6 +4,7 @@ mod algorithms;
 mod arms;
 mod bounces;
 mod contact;
+mod contact_directions;
 mod contact_order;
 mod contact_run;
 mod contact_scenes;
