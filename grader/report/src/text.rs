@@ -13,7 +13,9 @@ use super::check_text::{folds, line, push_checks};
 use super::moment::{fragment, last_before, of_task};
 use super::stop_words::stop_of_whole_file;
 use super::visible::visible;
-use kinemark_grader::record::grade::{EventRecord, Grade, GradeMode, Stopped, TaskGrade, TaskKind};
+use kinemark_grader::record::grade::{
+    Diagnosis, Divergence, EventRecord, Grade, GradeMode, Stopped, TaskGrade, TaskKind,
+};
 use kinemark_grader::record::quantity::{points, with_unit};
 use kinemark_grader::record::verdict::Verdict;
 
@@ -109,7 +111,7 @@ pub(crate) fn points_at_hand_in(grade: &Grade) -> Option<String> {
         .then(|| format!("{} more when you hand in", points(grade.points_at_hand_in)))
 }
 
-// long: the lines of a task in the order in which they are printed
+/// The lines of a task, in the order in which they are printed.
 fn push_task(out: &mut String, task: &TaskGrade, file: &str, detail: Detail) {
     let verdict = match task.verdict {
         Verdict::Passed => task.verdict.name().green().to_string(),
@@ -129,74 +131,76 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str, detail: Detail) {
     if let Some(stopped) = &task.stopped {
         push_stopped(out, stopped, file, &task.name);
     }
-    if let Some(event) = task.first_unresolved() {
-        line(
-            out,
-            &format!(
-                "  {} {} {}",
-                "inaccurate:".yellow().bold(),
-                unresolved(event),
-                fragment(&task.name, event.time_s).dimmed()
-            ),
-        );
-    }
-    if task.unresolved_hidden() > 0 {
-        let words = unresolved_hidden(task);
-        line(out, &format!("  {} {words}", "inaccurate:".yellow().bold()));
-    }
+    push_unresolved(out, task);
     for diagnosis in &task.diagnoses {
-        line(
-            out,
-            &format!(
-                "  {} {} {}",
-                "likely:".magenta().bold(),
-                diagnosis.says,
-                format!(
-                    "(matches {} of the {} {} in which this mistake shows)",
-                    diagnosis.agreeing,
-                    diagnosis.telling,
-                    match task.kind {
-                        TaskKind::Function => "answers",
-                        TaskKind::Motion => "moments",
-                    }
-                )
-                .dimmed()
-            ),
-        );
+        push_diagnosis(out, diagnosis, task.kind);
     }
     if let Some(differs) = &task.divergence {
-        line(
-            out,
-            &format!(
-                "  {} at {}: {} {}",
-                "first differs".cyan(),
-                seconds(differs.time_s),
-                visible(&differs.message),
-                format!(
-                    "[tick {}, {}] {}",
-                    differs.tick,
-                    differs.signal,
-                    fragment(&task.name, differs.time_s)
-                )
-                .dimmed()
-            ),
-        );
+        push_difference(out, differs, &task.name);
     }
     push_checks(out, task, detail == Detail::Everything);
-    let lost: Vec<String> = task
-        .hidden
-        .iter()
+    let hidden = task.hidden.iter();
+    let hidden: Vec<String> = hidden
         .map(|class| format!("{} {}/{}", class.class, class.good, class.total))
         .collect();
-    if !lost.is_empty() {
-        line(
-            out,
-            &format!(
-                "  {}",
-                format!("hidden {}: {}", hidden_word(task.kind), lost.join(", ")).dimmed()
-            ),
-        );
+    if !hidden.is_empty() {
+        let words = format!("hidden {}: {}", hidden_word(task.kind), hidden.join(", "));
+        line(out, &format!("  {}", words.dimmed()));
     }
+}
+
+/// That the simulation is not accurate, of the visible run and of hidden ones.
+fn push_unresolved(out: &mut String, task: &TaskGrade) {
+    let inaccurate = "inaccurate:".yellow().bold().to_string();
+    if let Some(event) = task.first_unresolved() {
+        let at = fragment(&task.name, event.time_s);
+        let words = unresolved(event);
+        line(out, &format!("  {inaccurate} {words} {}", at.dimmed()));
+    }
+    if task.unresolved_hidden() > 0 {
+        line(out, &format!("  {inaccurate} {}", unresolved_hidden(task)));
+    }
+}
+
+/// What the mistake may be.
+fn push_diagnosis(out: &mut String, diagnosis: &Diagnosis, kind: TaskKind) {
+    let noun = match kind {
+        TaskKind::Function => "answers",
+        TaskKind::Motion => "moments",
+    };
+    let agrees = format!(
+        "(matches {} of the {} {noun} in which this mistake shows)",
+        diagnosis.agreeing, diagnosis.telling
+    );
+    line(
+        out,
+        &format!(
+            "  {} {} {}",
+            "likely:".magenta().bold(),
+            diagnosis.says,
+            agrees.dimmed()
+        ),
+    );
+}
+
+/// Where a run first differs from the reference.
+fn push_difference(out: &mut String, differs: &Divergence, task: &str) {
+    let place = format!(
+        "[tick {}, {}] {}",
+        differs.tick,
+        differs.signal,
+        fragment(task, differs.time_s)
+    );
+    line(
+        out,
+        &format!(
+            "  {} at {}: {} {}",
+            "first differs".cyan(),
+            seconds(differs.time_s),
+            visible(&differs.message),
+            place.dimmed()
+        ),
+    );
 }
 
 /// What the first event of a run that is not resolved means for whoever reads its grade.

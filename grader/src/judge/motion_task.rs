@@ -31,7 +31,6 @@ use crate::task::model::{Function, MotionTask};
 use crate::task::workcell::Workcell;
 
 impl Grader<'_> {
-    // long: one record, made once
     pub(super) fn motion(
         &self,
         task: &Task,
@@ -71,12 +70,7 @@ impl Grader<'_> {
             &hidden,
             visible.stopped.is_some() || !diagnoses.is_empty(),
         );
-        let mut verdict = visible.verdict;
-        let is_lost =
-            |check: &CheckGrade| !matches!(check.outcome, Outcome::Full | Outcome::AtHandIn);
-        if grades.iter().any(is_lost) {
-            verdict = verdict.min(Verdict::Missed);
-        }
+        let mut verdict = visible.verdict.min(missed_by(&grades));
         let digest = attempt.recorded.digest();
         let all = match self.staff.filter(|_| !hidden.is_empty()) {
             Some(staff) => staff.keyed(hidden.digest(digest.all)),
@@ -329,6 +323,15 @@ impl Grader<'_> {
             }
             _ => Ok(HiddenAttempts::default()),
         }
+    }
+}
+
+/// The verdict that checks alone leave: missed where one of them lost points, hidden runs among them.
+fn missed_by(checks: &[CheckGrade]) -> Verdict {
+    let is_lost = |check: &CheckGrade| !matches!(check.outcome, Outcome::Full | Outcome::AtHandIn);
+    match checks.iter().any(is_lost) {
+        true => Verdict::Missed,
+        false => Verdict::Passed,
     }
 }
 

@@ -71,7 +71,6 @@ pub(crate) struct Args {
 }
 
 /// Audits the lab and prints what was tried.
-// long: one row after the other
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let lab = Lab::load(
@@ -94,41 +93,54 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         let output = (args.json, args.jobs.map(usize::from));
         return lab_mutate::run(&args.mutate, output, (&lab, &own), &reference);
     }
-    let starter = labs_folder::text(files.as_ref(), &lab.name, "starter.rhai")?;
+    let audit = audited(args, files.as_ref(), (&lab, &own), &reference)?;
+    show(args, &audit)?;
+    let bad = audit.problems().next().is_some();
+    Ok(ExitCode::from(if bad { LOST } else { 0 }))
+}
+
+/// Everything that is tried, and what it shows, one row after the other.
+fn audited(
+    args: &Args,
+    files: &dyn Files,
+    (lab, own): (&Lab, &Staff),
+    reference: &Folder,
+) -> Result<Audit, Failure> {
+    let starter = labs_folder::text(files, &lab.name, "starter.rhai")?;
     let starter = Source::new("starter.rhai", starter);
     let path = format!("{}/brief.md", lab.name);
     let brief = files
         .read(&path)
         .map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))?;
 
-    let form = Form::new(&lab, &own);
+    let form = Form::new(lab, own);
     let tried = Tries {
-        lab: &lab,
+        lab,
         form: &form,
-        reference: &reference,
-        salt: Staff::salt(&reference, &lab.name, None)?.unwrap_or_default(),
+        reference,
+        salt: Staff::salt(reference, &lab.name, None)?.unwrap_or_default(),
         starter: &starter,
         jobs: args.jobs.map_or_else(pool::default_jobs, usize::from),
     };
-    let extent = Extent::of(&lab, &own, (args.salts, args.variants), args.quick);
+    let extent = Extent::of(lab, own, (args.salts, args.variants), args.quick);
     let all = tried.all(&extent)?;
 
-    let mut audit = Audit::new(&lab);
+    let mut audit = Audit::new(lab);
     let formulas = brief.as_deref().map(formula_problems).unwrap_or_default();
     let formula = formulas.first().map(ToString::to_string);
-    audit.brief(&lab, brief.as_deref(), formula.as_deref());
+    audit.brief(lab, brief.as_deref(), formula.as_deref());
     let starter_grade = audit.take(all.starter);
-    audit_compiled_starters(&mut audit, files.as_ref(), &lab)?;
+    audit_compiled_starters(&mut audit, files, lab)?;
     let reference_grade = audit.take(all.reference);
     if let Some(grade) = &reference_grade {
         audit.measure_reference(grade);
     }
-    audit_practice(&mut audit, files.as_ref(), &lab, all.practice)?;
+    audit_practice(&mut audit, files, lab, all.practice)?;
     audit.draws(all.draws);
     if let Some(variants) = all.variants {
         audit.variants(variants);
     }
-    audit.count_mutants(&own);
+    audit.count_mutants(own);
     let mut mutants = Vec::new();
     for (mutant, found) in own.mutants.iter().zip(all.mutants) {
         if let Some(grade) = audit.take(found) {
@@ -143,32 +155,28 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         finer: all.finer,
         mutants,
     };
-    audit_rubric(
-        &mut audit,
-        &reference,
-        (&lab, &own),
-        brief.as_deref(),
-        &graded,
-    )?;
+    audit_rubric(&mut audit, reference, (lab, own), brief.as_deref(), &graded)?;
     if args.quick {
         audit.left_out = left_out();
     }
+    Ok(audit)
+}
 
+/// Writes the page of the bands, where one is asked for, and prints the audit.
+fn show(args: &Args, audit: &Audit) -> Result<(), Failure> {
     if let Some(file) = &args.page {
         let page = BandsPage {
             engine: &engine(),
-            audit: &audit,
+            audit,
         };
         let help = "give another file with --page FILE.html";
         output::write_file(file, page.html().as_bytes(), help)?;
     }
     if args.json {
-        output::print_formatted(&audit)?;
+        output::print_formatted(audit)
     } else {
-        output::print_lines(&text(&audit))?;
+        output::print_lines(&text(audit))
     }
-    let bad = audit.problems().next().is_some();
-    Ok(ExitCode::from(if bad { LOST } else { 0 }))
 }
 
 /// Looks into the starters of compiled languages, where there are any.
