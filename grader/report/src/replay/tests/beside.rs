@@ -93,3 +93,54 @@ fn what_stands_elsewhere_is_shown_where_it_stands() {
     let same = record(Replay::of(&a, None).beside("A", ghost(&a)));
     assert!(!names(&same).iter().any(|name| name.contains("goal")));
 }
+
+/// Values by time \[s\], on which runs of other steps agree.
+fn value(time_s: f64, joint: usize) -> f64 {
+    0.3 * time_s + 0.1 * joint as f64
+}
+
+/// The columns of a track whose ticks the page has.
+fn columns(track: &Value, ticks: &[usize]) -> Vec<Vec<f64>> {
+    let data = track["data"].as_str().expect("data");
+    read(ticks.len(), &numbers(&track["quanta"]), Some(ticks), data)
+}
+
+#[test]
+fn numbers_of_a_run_with_other_steps_are_those_at_the_same_time() {
+    // 0.5 s in steps of 1 ms, and 0.3 s in steps of 4 ms
+    let ours = sample::chain(2, 501, |tick, joint| value(1e-3 * tick as f64, joint));
+    let mut theirs = sample::chain(2, 76, |tick, joint| value(4e-3 * tick as f64, joint));
+    theirs.trace.step_s = 0.004;
+    let last = theirs.trace.len() - 1;
+    let ticks = [0, 4, 101, 103, 240, 300, 301, 500];
+    // the step that is nearest in time: 101 ms and 103 ms lie between 100 and 104; after its end, the end
+    let nearest = [0, 1, 25, 26, 60, 75, 75, 75];
+    assert_eq!(last, 75);
+    let found = super::super::beside::numbers(&theirs, &ours, &ticks).expect("numbers");
+    let found = serde_json::to_value(&found).expect("JSON");
+    let near = |a: f64, b: f64| assert!((a - b).abs() <= 0.6e-4, "{a} {b}");
+    for (i, joint) in found["q"].as_array().expect("joints").iter().enumerate() {
+        let [column] = &columns(&joint["track"], &ticks)[..] else {
+            panic!("one number a joint")
+        };
+        for (q, tick) in column.iter().zip(nearest) {
+            near(*q, value(4e-3 * tick as f64, i));
+        }
+    }
+    for (c, column) in columns(&found["tcp"], &ticks).iter().enumerate() {
+        for (coordinate, tick) in column.iter().zip(nearest) {
+            near(*coordinate, theirs.trace.tcp_position(tick)[c]);
+        }
+    }
+    // the other way round: a step of theirs is four of ours
+    let ticks = [0, 25, 75];
+    let found = super::super::beside::numbers(&ours, &theirs, &ticks).expect("numbers");
+    let found = serde_json::to_value(&found).expect("JSON");
+    let column = &columns(&found["q"][0]["track"], &ticks)[0];
+    for (q, tick) in column.iter().zip([0.0, 100.0, 300.0]) {
+        near(*q, value(1e-3 * tick, 0));
+    }
+    // a run without a sound row has no numbers
+    let broken = sample::chain(2, 5, |_, _| f64::NAN);
+    assert!(super::super::beside::numbers(&broken, &ours, &ticks).is_none());
+}
