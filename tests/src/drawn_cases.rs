@@ -1,6 +1,6 @@
 //! Cases of functions as a page draws them: the arm and the answer where they are, entries right or wrong.
 
-use kinemark_grader::record::shown_case::{ComparedNumber, ShownCase, ShownCases};
+use kinemark_grader::record::shown_case::{BranchCount, ComparedNumber, ShownCase, ShownCases};
 
 use crate::testbed::{grade, lab};
 
@@ -67,7 +67,7 @@ fn inverse_kinematics_has_the_arm_at_every_answered_branch() {
     let shown = drawn("01-kinematics", "ik", mixed);
     let case = case(&shown, "to the right");
     let places = case.places.as_ref().expect("places");
-    assert_eq!(places.branches, Some(2));
+    assert_eq!(places.branches, Some(BranchCount { found: 1, all: 2 }));
     assert!(places.arm_m.is_empty());
     let right: Vec<bool> = places.answered.iter().map(|place| place.is_right).collect();
     assert_eq!(right, [true, false]);
@@ -76,6 +76,41 @@ fn inverse_kinematics_has_the_arm_at_every_answered_branch() {
         &places.answered[1].arm_m,
         &[[2.0, 0.0, 0.025], [3.0, 0.0, 0.05], [4.0, 0.0, 0.05]],
     );
+}
+
+#[test]
+fn a_branch_that_is_answered_twice_counts_once() {
+    // the elbow on one side, once more a full turn away
+    let twice = "fn inverse_kinematics(robot, position) {
+        let x = position[0] - 2.0;
+        let y = position[1];
+        let c = (x * x + y * y - 2.0) / 2.0;
+        if c > 1.0 || c < -1.0 { return []; }
+        let elbow = acos(c);
+        let shoulder = atan2(y, x) - atan2(sin(elbow), 1.0 + cos(elbow));
+        [[shoulder, elbow], [shoulder + 2.0 * PI, elbow]]
+    }";
+    let bed = crate::testbed::TestBed::new();
+    bed.write("mine.rhai", twice);
+    let ran = bed.run(&["grade", "01-kinematics", "mine.rhai", "--practice"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    let page = std::fs::read_to_string(bed.path("out/report.html")).expect("a page");
+    assert!(page.contains("1 of 2 branches"), "one is missing");
+    assert!(!page.contains("2 of 2 branches"));
+    let shown = drawn("01-kinematics", "ik", twice);
+    let places = case(&shown, "to the right")
+        .places
+        .as_ref()
+        .expect("places");
+    assert!(places.answered.len() == 2 && places.answered.iter().all(|place| place.is_right));
+    assert_eq!(places.branches, Some(BranchCount { found: 1, all: 2 }));
+    let beyond = shown.cases.iter().filter_map(|case| case.places.as_ref());
+    let beyond: Vec<_> = beyond.filter(|places| places.is_out_of_reach()).collect();
+    assert!(
+        !beyond.is_empty(),
+        "lab 1 has a target that nothing reaches"
+    );
+    assert!(page.contains("target out of reach") && page.contains("nothing reaches ("));
 }
 
 #[test]

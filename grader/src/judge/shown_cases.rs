@@ -6,10 +6,10 @@ use nalgebra::Vector3;
 
 use super::case_grades::{SAME_ANGLE_RAD, is_good};
 use crate::attempt::answers::{Answered, CaseError, CaseFacts};
-use crate::attempt::branches::beyond_limit;
+use crate::attempt::branches::{beyond_limit, count_different, count_distinct};
 use crate::attempt::measure::entry_error;
 use crate::record::shown_case::{
-    AnsweredPlace, ComparedNumber, ComparedNumbers, ShownCase, ShownCases, ShownPlaces,
+    AnsweredPlace, BranchCount, ComparedNumber, ComparedNumbers, ShownCase, ShownCases, ShownPlaces,
 };
 use crate::task::entry::Entry;
 use crate::task::model::{Band, Compared, Function, FunctionTask, Given};
@@ -92,8 +92,21 @@ impl Seen<'_> {
                 };
                 let target = (*branches > 0).then_some(pose.as_slice());
                 let place = |q: &Vec<f64>| self.branch(robot, q, (target, *form));
-                let places = rows.iter().take(MOST_BRANCHES).filter_map(place);
-                (*position_m, Vec::new(), Some(*branches), places.collect())
+                let places: Vec<(AnsweredPlace, &Vec<f64>)> =
+                    rows.iter().filter_map(|q| Some((place(q)?, q))).collect();
+                let right = places.iter().filter(|(place, _)| place.is_right);
+                let right: Vec<Vec<f64>> = right.map(|(_, q)| (*q).clone()).collect();
+                let found = match form.is_turned() {
+                    true => count_different(robot, &right),
+                    false => count_distinct(robot, &right),
+                };
+                let count = BranchCount {
+                    found: found as u32,
+                    all: *branches,
+                };
+                let places = places.into_iter().map(|(place, _)| place);
+                let places = places.take(MOST_BRANCHES).collect();
+                (*position_m, Vec::new(), Some(count), places)
             }
             _ => return None,
         };

@@ -34,10 +34,26 @@ pub struct ShownPlaces {
     pub right_m: [f64; 3],
     /// The arm as a line at the positions given; empty where they are what is asked for \[m\].
     pub arm_m: Vec<[f64; 3]>,
-    /// How many branches reach it, of inverse kinematics; none else.
-    pub branches: Option<u32>,
+    /// Of inverse kinematics: how many branches reach it, none of a target out of reach.
+    pub branches: Option<BranchCount>,
     /// What was answered: one place of forward kinematics, and one a branch of inverse kinematics.
     pub answered: Vec<AnsweredPlace>,
+}
+
+impl ShownPlaces {
+    /// Whether no joint positions put the TCP where it is asked for.
+    pub fn is_out_of_reach(&self) -> bool {
+        self.branches.is_some_and(|count| count.all == 0)
+    }
+}
+
+/// Branches of a case of inverse kinematics.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct BranchCount {
+    /// How many different right ones were answered: one that is answered twice counts once.
+    pub found: u32,
+    /// How many there are.
+    pub all: u32,
 }
 
 /// Where an answer has the TCP.

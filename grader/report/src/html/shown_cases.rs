@@ -8,7 +8,7 @@ use crate::visible::{shortened, visible};
 use kinemark_grader::record::grade::CaseGrade;
 use kinemark_grader::record::quantity::with_unit;
 use kinemark_grader::record::shown_case::{
-    ComparedNumber, ComparedNumbers, ShownCase, ShownCases, ShownPlaces,
+    BranchCount, ComparedNumber, ComparedNumbers, ShownCase, ShownCases, ShownPlaces,
 };
 use kinemark_sim::text::number::trimmed;
 
@@ -62,6 +62,7 @@ fn sketch(case: &ShownCase, places: &ShownPlaces, cases: &[CaseGrade]) -> Markup
                     span class="pill partial" { (found) " of " (all) " branches" }
                 } @else if case.is_good {
                     span class="pill full" { "right" }
+                    @if places.is_out_of_reach() { " nothing reaches it" }
                 } @else {
                     span class="pill none" { "wrong" }
                     @if let Some(off_m) = off_m { " " (with_unit(off_m, "m")) " off" }
@@ -74,9 +75,7 @@ fn sketch(case: &ShownCase, places: &ShownPlaces, cases: &[CaseGrade]) -> Markup
 
 /// How many right branches were answered, and how many there are, where some are missing.
 fn partly(places: &ShownPlaces) -> Option<(u32, u32)> {
-    let all = places.branches.filter(|all| *all > 0)?;
-    let found = places.answered.iter().filter(|place| place.is_right);
-    let found = found.count() as u32;
+    let BranchCount { found, all } = places.branches?;
     (found < all).then_some((found, all))
 }
 
@@ -93,6 +92,10 @@ fn spoken(case: &ShownCase, places: &ShownPlaces) -> String {
         answers => answers.join(" and "),
     };
     let name = visible(&case.name);
+    if places.is_out_of_reach() {
+        let target = at(&places.right_m);
+        return format!("{name}: nothing reaches {target}, the answer puts the TCP at {answers}");
+    }
     match places.arm_m.is_empty() {
         true => format!(
             "{name}: the TCP should be at {}, the answer puts it at {answers}",

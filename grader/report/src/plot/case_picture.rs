@@ -51,7 +51,11 @@ pub(crate) fn case_picture(title: &str, places: &ShownPlaces) -> String {
                 canvas.line(&piece, VERMILLION_DASHED, 1.4);
             }
         }
-        canvas.ring(view.at(right), 6.0, GREEN, 2.0);
+        let of_target = match places.is_out_of_reach() {
+            true => MUTED,
+            false => GREEN,
+        };
+        canvas.ring(view.at(right), 6.0, of_target, 2.0);
         for place in answered {
             let at = view.at(plane.flat(&place.tcp_m));
             match view.clip(at, at) {
@@ -76,8 +80,12 @@ pub(crate) fn case_legend<'p>(
         ));
         entries.push(Entry::new(Swatch::Ring(GREEN), "where its TCP is"));
     }
-    if all.clone().any(|places| places.arm_m.is_empty()) {
+    let mut targets = all.clone().filter(|places| places.arm_m.is_empty());
+    if targets.clone().any(|places| !places.is_out_of_reach()) {
         entries.push(Entry::new(Swatch::Ring(GREEN), "where the TCP should be"));
+    }
+    if targets.any(ShownPlaces::is_out_of_reach) {
+        entries.push(Entry::new(Swatch::Ring(MUTED), "target out of reach"));
     }
     let answered = || all.clone().flat_map(|places| &places.answered);
     let at_joints = |is_right: bool| {
@@ -181,6 +189,7 @@ fn view(places: &ShownPlaces, plane: &Plane) -> View {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kinemark_grader::record::shown_case::BranchCount;
 
     fn places(answered: [f64; 3], is_right: bool) -> ShownPlaces {
         ShownPlaces {
@@ -257,13 +266,27 @@ mod tests {
         );
         let mut inverse = wrong;
         inverse.answered[0].arm_m = std::mem::take(&mut inverse.arm_m);
+        let answer = ["arm at a wrong answer", "its TCP"];
+        let with = |first: &[&'static str]| [first, &answer[..]].concat();
         assert_eq!(
-            words(&[inverse]),
-            [
-                "where the TCP should be",
-                "arm at a wrong answer",
-                "its TCP"
-            ]
+            words(std::slice::from_ref(&inverse)),
+            with(&["where the TCP should be"])
+        );
+        let mut beyond = inverse.clone();
+        beyond.branches = Some(BranchCount { found: 0, all: 0 });
+        assert_eq!(
+            words(std::slice::from_ref(&beyond)),
+            with(&["target out of reach"])
+        );
+        assert_eq!(
+            words(&[inverse, beyond.clone()]),
+            with(&["where the TCP should be", "target out of reach"])
+        );
+        let svg = case_picture("", &beyond);
+        let (_, drawn) = svg.split_once("</style>").expect("a style sheet");
+        assert!(
+            !drawn.contains(&crate::palette::hex(GREEN.light)),
+            "{drawn}"
         );
     }
 }
