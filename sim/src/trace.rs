@@ -57,6 +57,8 @@ pub struct LogLine {
     pub tick: u64,
     /// The text.
     pub text: String,
+    /// The line of the submission that printed it, where that is known.
+    pub line: Option<usize>,
 }
 
 /// A signal the submission drew with `plot`.

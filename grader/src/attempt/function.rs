@@ -62,7 +62,11 @@ pub fn run<'a>(
         };
         // output in a hidden case could reveal its numbers
         let lines = said.log.into_iter().filter(|_| is_visible);
-        log.extend(lines.map(|text| LogEntry { at: i as u64, text }));
+        log.extend(lines.map(|printed| LogEntry {
+            at: i as u64,
+            text: printed.text,
+            line: printed.line,
+        }));
         facts.push(measure(cell.frame, task, case, robot, value.as_ref()));
     }
     Attempt {

@@ -394,7 +394,11 @@ const MOST_PLOTS: usize = 24;
 
 impl Output {
     fn keep(&mut self, tick: u64, said: Said) {
-        let lines = said.log.into_iter().map(|text| LogLine { tick, text });
+        let lines = said.log.into_iter().map(|printed| LogLine {
+            tick,
+            text: printed.text,
+            line: printed.line,
+        });
         self.log.extend(lines);
         for (name, value) in said.plots {
             match self.plots.iter().position(|plot| plot.name == name) {
@@ -405,7 +409,11 @@ impl Output {
                         let text = format!(
                             "more than {MOST_PLOTS} names in `plot`: `{name}` and later ones are not kept"
                         );
-                        self.log.push(LogLine { tick, text });
+                        self.log.push(LogLine {
+                            tick,
+                            text,
+                            line: None,
+                        });
                     }
                 }
                 None => self.plots.push(PlotSignal {

@@ -53,6 +53,7 @@ impl MotionResult {
                 .map(|line| LogEntry {
                     at: line.tick,
                     text: line.text.clone(),
+                    line: line.line,
                 })
                 .collect(),
             digests: self.digests.clone(),

@@ -509,6 +509,9 @@ pub struct LogEntry {
     pub at: u64,
     /// The text.
     pub text: String,
+    /// The line of the script that printed it. Left out where that is not known: of a module, and of notes of the grader.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
 }
 
 /// Digests of a submission's run or answers in a task, in hexadecimal BLAKE3.

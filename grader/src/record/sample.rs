@@ -137,6 +137,7 @@ pub fn task_run_of(seconds: u32) -> TaskRun {
     .map(|(text, tick)| LogLine {
         tick,
         text: (*text).to_owned(),
+        line: Some(2),
     })
     .collect();
     let off_line = (0..=ticks as usize).map(|tick| {
@@ -480,6 +481,7 @@ fn fk() -> TaskGrade {
     fk.log = vec![LogEntry {
         at: 1,
         text: "case bent: q12 = 1.2".to_owned(),
+        line: Some(3),
     }];
     fk
 }
@@ -604,10 +606,12 @@ fn moving() -> TaskGrade {
         LogEntry {
             at: 0,
             text: "going to goal 1".to_owned(),
+            line: Some(2),
         },
         LogEntry {
             at: 2400,
             text: "<b>reached</b> goal 1 \u{1b}[31mred\u{1b}[0m \u{202E}desrever".to_owned(),
+            line: Some(2),
         },
     ];
     moving

@@ -27,9 +27,26 @@ pub trait Controller {
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Said {
     /// Lines it printed.
-    pub log: Vec<String>,
+    pub log: Vec<PrintedLine>,
     /// Values it plotted, by name, in order.
     pub plots: Vec<(String, f64)>,
+}
+
+#[cfg(test)]
+impl Said {
+    /// The texts of the printed lines.
+    pub(crate) fn texts(&self) -> Vec<&str> {
+        self.log.iter().map(|line| line.text.as_str()).collect()
+    }
+}
+
+/// A line that a submission printed, or that the host says among them.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PrintedLine {
+    /// The text.
+    pub text: String,
+    /// The line of the script whose call printed it; none in a module, and of what the host says.
+    pub line: Option<usize>,
 }
 
 /// The opening of a controller, once per task.

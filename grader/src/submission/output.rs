@@ -1,6 +1,6 @@
 //! What a submission prints and plots in a task, up to its budgets.
 
-use super::controller::{Budgets, Said};
+use super::controller::{Budgets, PrintedLine, Said};
 
 /// Longest name of a signal in characters, so that it fits a legend, and fifty thousand of them fit in memory.
 pub(super) const LONGEST_SIGNAL_NAME: usize = 64;
@@ -29,21 +29,22 @@ impl Output {
         }
     }
 
-    /// Adds a line to the log.
-    pub(super) fn print(&mut self, line: String) {
+    /// Adds a line to the log, with the line of the script that printed it.
+    pub(super) fn print(&mut self, text: String, line: Option<usize>) {
         self.lines = self.lines.saturating_add(1);
         let most = self.most_lines;
         if self.lines <= most {
-            self.said.log.push(line);
+            self.said.log.push(PrintedLine { text, line });
         } else if self.lines == most + 1 {
-            let note = format!("more than {most} lines are printed: the rest is not kept");
-            self.said.log.push(note);
+            self.note(format!(
+                "more than {most} lines are printed: the rest is not kept"
+            ));
         }
     }
 
     /// Adds a line that the host has to say, which counts for no budget.
-    pub(super) fn note(&mut self, line: String) {
-        self.said.log.push(line);
+    pub(super) fn note(&mut self, text: String) {
+        self.said.log.push(PrintedLine { text, line: None });
     }
 
     /// Adds a value to a signal.
@@ -53,8 +54,9 @@ impl Output {
         if self.samples <= most {
             self.said.plots.push((name, value));
         } else if self.samples == most + 1 {
-            let note = format!("more than {most} values are plotted: the rest is not kept");
-            self.said.log.push(note);
+            self.note(format!(
+                "more than {most} values are plotted: the rest is not kept"
+            ));
         }
     }
 

@@ -165,6 +165,7 @@ impl Held {
         let texts = said
             .log
             .iter()
+            .map(|printed| &printed.text)
             .chain(said.plots.iter().map(|(name, _)| name));
         let mut lengths = texts.map(|text| text.len() as u64);
         let left = |left: u64, taken: usize| left.checked_sub(taken as u64);

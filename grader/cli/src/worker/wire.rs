@@ -9,7 +9,8 @@ use std::marker::PhantomData;
 
 use kinemark_grader::record::grade::FurtherMistake;
 use kinemark_grader::submission::controller::{
-    Answer, Budget, Call, Mistake, Namesake, Opening, Said, SourcePosition, Stop, Value,
+    Answer, Budget, Call, Mistake, Namesake, Opening, PrintedLine, Said, SourcePosition, Stop,
+    Value,
 };
 use serde::de::{DeserializeOwned, SeqAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize};
@@ -182,7 +183,8 @@ pub(super) struct WireAnswer {
 /// Output of a call.
 #[derive(Serialize, Deserialize, Default)]
 pub(super) struct WireSaid {
-    log: Bounded<String>,
+    /// Texts, and the lines of the script that printed them.
+    log: Bounded<(String, Option<usize>)>,
     plots: Bounded<(String, f64)>,
 }
 
@@ -294,15 +296,19 @@ fn grown(tokens: &mut std::vec::IntoIter<Token>, depth: usize) -> Option<Value> 
 
 impl WireSaid {
     pub(super) fn of(said: Said) -> Self {
+        let lines = said.log.into_iter();
         Self {
-            log: Bounded(said.log),
+            log: Bounded(lines.map(|printed| (printed.text, printed.line)).collect()),
             plots: Bounded(said.plots),
         }
     }
 
     pub(super) fn said(self) -> Said {
+        let lines = self.log.0.into_iter();
         Said {
-            log: self.log.0,
+            log: lines
+                .map(|(text, line)| PrintedLine { text, line })
+                .collect(),
             plots: self.plots.0,
         }
     }
@@ -421,7 +427,10 @@ mod tests {
         Answer {
             value,
             said: Said {
-                log: vec!["a".to_owned()],
+                log: vec![PrintedLine {
+                    text: "a".to_owned(),
+                    line: Some(3),
+                }],
                 plots: vec![("p".to_owned(), 1.5)],
             },
             operations: 7,
@@ -472,7 +481,7 @@ mod tests {
         assert!(sent_back(&Reply::Answered(deep(MOST_ELEMENTS))).is_err());
 
         let lines = WireSaid {
-            log: Bounded(vec![String::new(); MOST_ELEMENTS + 1]),
+            log: Bounded(vec![(String::new(), None); MOST_ELEMENTS + 1]),
             plots: Bounded::default(),
         };
         let stop = WireStop::Missing {

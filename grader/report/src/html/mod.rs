@@ -2,6 +2,7 @@
 
 mod band;
 mod beyond;
+mod case_columns;
 mod chapters;
 mod comparison;
 mod costs;
@@ -10,6 +11,7 @@ pub mod feedback;
 mod figure;
 mod head;
 mod look;
+mod printed;
 mod shown_cases;
 mod since;
 mod source;
@@ -27,6 +29,7 @@ pub use self::explanation::{OVERVIEW_FILE, StaffPage, explanation};
 pub use self::figure::still_figure;
 pub use self::head::verdict_words;
 use self::head::{facts, head, scores};
+use self::printed::Printed;
 pub use self::since::{Earlier, EarlierCheck};
 use self::source::{ScriptLines, source};
 pub use self::static_page::{SmallScript, StaticPage};
@@ -129,7 +132,7 @@ fn page_with_notice(
             @for (i, task) in grade.tasks.iter().enumerate().filter(|_| whole_file.is_none()) {
                 (task::section(i, task, drawn(&task.name), cases_of(&task.name), has_replay(i), script, extras.chapters))
             }
-            (source(grade, script, extras.module_sources))
+            (source(grade, script, extras.module_sources, &Printed::of(graded, has_replay)))
         }
         (facts(grade))
     };
@@ -432,6 +435,7 @@ mod tests {
         let line = kinemark_grader::record::grade::LogEntry {
             at: 0,
             text: "<i>".repeat(2_000),
+            line: Some(2),
         };
         graded.grade.tasks[3].log = vec![line; 10_000];
         let plain = page(&sample::graded()).len();

@@ -1,8 +1,9 @@
-//! The submission in the page: every line with its number and an anchor, and what went wrong under the line that it names.
+//! The submission in the page: every line with its number and an anchor, and below a line what went wrong there and what it printed.
 
 use maud::{Markup, PreEscaped, html};
 use unicode_width::UnicodeWidthStr as _;
 
+use super::printed::Printed;
 use super::{foreign, prose};
 use crate::visible::{shortened, visible};
 use kinemark_grader::record::grade::{Grade, Stopped};
@@ -150,11 +151,12 @@ fn remarks(grade: &Grade) -> Vec<(usize, &str)> {
     all
 }
 
-/// The section with the submission: a script with what went wrong at its lines, or the sources beside a module.
+/// The section with the submission: a script with what went wrong at its lines and what they printed, or the sources beside a module.
 pub(super) fn source(
     grade: &Grade,
     script: Option<&ScriptLines<'_>>,
     module_sources: &[(String, Vec<u8>)],
+    printed: &Printed<'_>,
 ) -> Markup {
     let mut room = MOST_BYTES;
     let files = module_sources.iter().enumerate().filter_map(|(i, file)| {
@@ -170,10 +172,10 @@ pub(super) fn source(
         section id=(SOURCE) class="source" aria-labelledby="source-title" {
             h2 id="source-title" { "Your submission" }
             @if let Some(script) = script {
-                (fold(&grade.submission.name, "", (&script.lines, script.is_whole), &remarks))
+                (fold(&grade.submission.name, "", (&script.lines, script.is_whole), &remarks, printed))
             }
             @for (anchor, name, lines, is_whole) in &files {
-                (fold(name, anchor, (lines, *is_whole), &[]))
+                (fold(name, anchor, (lines, *is_whole), &[], &Printed::default()))
             }
         }
     }
@@ -185,6 +187,7 @@ fn fold(
     prefix: &str,
     (lines, is_whole): (&[&str], bool),
     remarks: &[(usize, &str)],
+    printed: &Printed<'_>,
 ) -> Markup {
     let of_line = |number: usize| {
         let here = remarks.iter().filter(move |(line, _)| *line == number);
@@ -203,6 +206,7 @@ fn fold(
                         li id=(format!("{prefix}line-{number}")) class=[of_line(number).next().map(|_| "marked")] {
                             code { (shortened(line, MOST_CHARACTERS)) }
                             @for words in of_line(number) { p class="remark" { (prose(words)) } }
+                            (printed.at(number))
                         }
                     }
                 }
@@ -264,7 +268,7 @@ mod tests {
             task.stopped = Some(stop.clone());
         }
         let script = ScriptLines::of(TEXT).unwrap();
-        let shown = source(&grade, Some(&script), &[]).into_string();
+        let shown = source(&grade, Some(&script), &[], &Printed::default()).into_string();
         for number in 1..=4 {
             assert!(
                 shown.contains(&format!("<li id=\"line-{number}\"")),
@@ -281,6 +285,19 @@ mod tests {
         );
         assert!(shown.contains("write <code>and</code>"));
         assert!(shown.contains("&lt;/code&gt;"), "a line is text");
+    }
+
+    #[test]
+    fn a_line_has_what_it_printed_below_it() {
+        let graded = sample::graded();
+        let script = ScriptLines::of(TEXT).unwrap();
+        let printed = Printed::of(&graded, |_| false);
+        let shown = source(&graded.grade, Some(&script), &[], &printed).into_string();
+        let (_, of_three) = shown.split_once("id=\"line-3\"").unwrap();
+        let (of_three, _) = of_three.split_once("</li>").unwrap();
+        assert!(of_three.contains("case bent: q12 = 1.2"), "{of_three}");
+        let (of_one, _) = shown.split_once("id=\"line-2\"").unwrap();
+        assert!(!of_one.contains("class=\"printed\""), "{of_one}");
     }
 
     #[test]
@@ -304,12 +321,16 @@ mod tests {
         let long = "x = 1;\n".repeat(MOST_LINES + 5);
         let grade = sample::graded().grade;
         let script = ScriptLines::of(long.as_bytes()).unwrap();
-        let shown = source(&grade, Some(&script), &[]).into_string();
+        let shown = source(&grade, Some(&script), &[], &Printed::default()).into_string();
         assert!(shown.contains("the first 3000 lines"), "said");
         let wide = "y".repeat(200_000);
         assert!(ScriptLines::of(wide.as_bytes()).unwrap().lines.is_empty());
         assert!(ScriptLines::of(b"\xff\xfe\x00").is_none());
-        assert!(source(&grade, None, &[]).into_string().is_empty());
+        assert!(
+            source(&grade, None, &[], &Printed::default())
+                .into_string()
+                .is_empty()
+        );
     }
 
     #[test]
@@ -319,7 +340,7 @@ mod tests {
             ("src/lib.rs".to_owned(), b"mod arm;\n".to_vec()),
             ("src/arm.rs".to_owned(), b"// <i>\n".to_vec()),
         ];
-        let shown = source(&grade, None, &files).into_string();
+        let shown = source(&grade, None, &files, &Printed::default()).into_string();
         for part in [
             "id=\"file-1-line-1\"",
             "id=\"file-2-line-1\"",

@@ -185,7 +185,7 @@ fn details_of(id: &str, task: &TaskGrade, plots: &[Plot], of: &TaskShown<'_>) ->
         @if !task.cases.is_empty() {
             h3 { "Visible cases" }
             @if let Some(shown) = of.cases { (drawn_cases(shown, &task.cases)) }
-            (cases(&task.cases))
+            (cases(&task.cases, of.cases))
         }
         @if !task.hidden.is_empty() { (hidden(id, task)) }
         @if has_others {

@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::case_columns::CaseColumns;
 use super::task_check::is_of_hidden_run;
 use super::task_shown::TaskShown;
 use super::{foreign, prose};
@@ -11,6 +12,7 @@ use kinemark_grader::record::grade::{
     CaseGrade, ContactRecord, EventRecord, HiddenClass, LogEntry, TaskGrade, TaskKind,
 };
 use kinemark_grader::record::quantity::with_unit;
+use kinemark_grader::record::shown_case::ShownCases;
 
 /// Lines of the log that are shown.
 const MOST_LINES: usize = 200;
@@ -19,29 +21,38 @@ const MOST_CHARACTERS: usize = 1000;
 /// Cases that are shown.
 const MOST_CASES: usize = 200;
 
-/// Visible cases with what was answered.
-pub(super) fn cases(cases: &[CaseGrade]) -> Markup {
+/// Visible cases with what was answered; `shown` says which entries of a wrong answer are wrong.
+pub(super) fn cases(cases: &[CaseGrade], shown: Option<&ShownCases>) -> Markup {
     let shows_expected = cases.iter().any(|case| case.expected.is_some());
+    let given = CaseColumns::of(cases.iter().map(|case| case.given.as_str()));
+    let answer = CaseColumns::of(cases.iter().map(|case| case.answer.as_str()));
+    let expected = CaseColumns::of(cases.iter().filter_map(|case| case.expected.as_deref()));
+    let is_named = [&given, &answer, &expected]
+        .iter()
+        .any(|part| part.is_named());
+    let rows = is_named.then_some("2");
+    let plain = |title: &str, class: Option<&str>| html! { th scope="col" class=[class] rowspan=[rows] { (title) } };
     html! {
         div class="wide" tabindex="0" role="group" aria-label="Visible cases" {
             table class="cases" {
                 thead {
                     tr {
-                        th scope="col" { "Case" }
-                        th scope="col" { "Given" }
-                        th scope="col" { "Your answer" }
-                        @if shows_expected { th scope="col" { "Expected" } }
-                        th scope="col" class="number" { "Error" }
-                        th scope="col" { "Good" }
+                        (plain("Case", None))
+                        (given.heading("Given", is_named))
+                        (answer.heading("Your answer", is_named))
+                        @if shows_expected { (expected.heading("Expected", is_named)) }
+                        (plain("Error", Some("number")))
+                        (plain("Good", None))
                     }
+                    @if is_named { tr { (given.named()) (answer.named()) @if shows_expected { (expected.named()) } } }
                 }
                 tbody {
                     @for case in cases.iter().take(MOST_CASES) {
                         tr {
                             th scope="row" { (foreign(&case.name)) }
-                            td { code { (foreign(&shortened(&case.given, 300))) } }
-                            td { code { (foreign(&shortened(&case.answer, 300))) } }
-                            @if shows_expected { td { @if let Some(expected) = &case.expected { code { (foreign(&shortened(expected, 300))) } } } }
+                            (given.cells(&case.given, |_| false))
+                            (answer.cells(&case.answer, |entry| is_wrong(shown, &case.name, entry)))
+                            @if shows_expected { (expected.cells(case.expected.as_deref().unwrap_or_default(), |_| false)) }
                             td class="number" { @match (case.error_m, case.relative_error) { (Some(error_m), _) => (with_unit(error_m, "m")), (_, Some(relative)) => (with_unit(relative, "")), _ => "–" } }
                             td { @if case.good { span class="pill full" { "yes" } } @else { span class="pill none" { "no" } } }
                         }
@@ -51,6 +62,16 @@ pub(super) fn cases(cases: &[CaseGrade]) -> Markup {
         }
         @if cases.len() > MOST_CASES { p class="quiet" { "The first " (MOST_CASES) " of " (cases.len()) " cases." } }
     }
+}
+
+/// Whether an entry of the answer to a case is wrong, as far as that is known.
+fn is_wrong(shown: Option<&ShownCases>, case: &str, entry: &str) -> bool {
+    let mut cases = shown.into_iter().flat_map(|shown| &shown.cases);
+    let shown = cases.find(|shown| shown.name == case);
+    let mut entries = shown.into_iter().flat_map(|shown| &shown.numbers);
+    entries.any(|numbers| {
+        numbers.name == entry && numbers.numbers.iter().any(|number| !number.is_right)
+    })
 }
 
 /// Hidden cases or runs by class: only their number is shown, and of runs the checks that lost points in them.
@@ -194,6 +215,7 @@ pub(super) fn log(task: &TaskGrade, of: &TaskShown<'_>) -> Markup {
         .map_or(0, |run| run.trace.log.len())
         .max(task.log.len());
     let shown = task.log.len().min(MOST_LINES);
+    let shows_line = task.log.iter().any(|entry| entry.line.is_some());
     let at = |entry: &LogEntry| match of.kind {
         TaskKind::Motion => of.tick(entry.at),
         TaskKind::Function => html! { "case " (entry.at) },
@@ -206,10 +228,14 @@ pub(super) fn log(task: &TaskGrade, of: &TaskShown<'_>) -> Markup {
             }
             div class="wide" tabindex="0" role="group" aria-label="Printed lines" {
                 table {
-                    thead { tr { th scope="col" class="number" { "At" } th scope="col" { "Text" } } }
+                    thead { tr { th scope="col" class="number" { "At" } @if shows_line { th scope="col" { "By" } } th scope="col" { "Text" } } }
                     tbody {
                         @for entry in task.log.iter().take(MOST_LINES) {
-                            tr { td class="number" { (at(entry)) } td { code { (foreign(&shortened(&entry.text, MOST_CHARACTERS))) } } }
+                            tr {
+                                td class="number" { (at(entry)) }
+                                @if shows_line { td class="by" { @if let Some(line) = entry.line { (of.line(line)) } } }
+                                td { code { (foreign(&shortened(&entry.text, MOST_CHARACTERS))) } }
+                            }
                         }
                     }
                 }

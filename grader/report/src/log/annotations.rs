@@ -81,7 +81,7 @@ impl Messages<'_> {
     pub(super) fn lines(&mut self) -> Result<(), LogError> {
         let run = self.run;
         let topic = self.known_topic::<Log>("/log")?;
-        let mut lines: Vec<(u64, Level, Cow<'_, str>, &str)> = Vec::new();
+        let mut lines: Vec<(u64, Level, Cow<'_, str>, &str, Option<usize>)> = Vec::new();
         let names = run.names();
         for event in &run.trace.events {
             let level = match event.kind {
@@ -93,7 +93,7 @@ impl Messages<'_> {
                 _ => Level::Info,
             };
             let message = names.event(&event.kind);
-            lines.push((self.ns(event.tick), level, message.into(), "run"));
+            lines.push((self.ns(event.tick), level, message.into(), "run", None));
         }
         for contact in &run.trace.contacts {
             let [first, second] = contact.parties.map(|party| names.party(party));
@@ -104,7 +104,7 @@ impl Messages<'_> {
                 contact.impulse_n_s
             );
             let ns = self.ns(contact.first_tick);
-            lines.push((ns, Level::Info, message.into(), "contact"));
+            lines.push((ns, Level::Info, message.into(), "contact", None));
         }
         for line in &run.trace.log {
             lines.push((
@@ -112,6 +112,7 @@ impl Messages<'_> {
                 Level::Info,
                 line.text.as_str().into(),
                 "submission",
+                line.line,
             ));
         }
         for curve in &run.curves {
@@ -121,17 +122,19 @@ impl Messages<'_> {
                 .filter(|(t_s, _)| t_s.is_finite() && *t_s >= 0.0)
             {
                 let ns = (t_s * 1e9).round() as u64;
-                lines.push((ns, Level::Info, text.as_str().into(), &curve.check));
+                lines.push((ns, Level::Info, text.as_str().into(), &curve.check, None));
             }
         }
-        for (ns, level, message, name) in lines {
+        for (ns, level, message, name, source_line) in lines {
             let line = Log {
                 timestamp: Some(time(ns)),
                 level: level as i32,
                 message: visible(&message).into_owned(),
                 name: name.to_owned(),
                 file: String::new(),
-                line: 0,
+                line: source_line
+                    .and_then(|line| u32::try_from(line).ok())
+                    .unwrap_or(0),
             };
             self.message(topic, ns, &line)?;
         }

@@ -414,6 +414,10 @@ mod tests {
         assert!(lines.iter().any(|line| line["level"] == json!(4)
             && line["message"] == json!("the submission was stopped")));
         let messages = read(&written(&sample::task_run()));
+        let printed = messages.iter().map(|message| &message.3);
+        let printed = printed.filter(|line| line["name"] == json!("submission"));
+        let lines: Vec<&Value> = printed.map(|line| &line["line"]).collect();
+        assert_eq!(lines, [&json!(2); 3]);
         let saturated = "effort of `shoulder` reached its limit";
         assert!(
             messages

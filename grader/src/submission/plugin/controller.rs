@@ -301,7 +301,7 @@ impl PluginController {
                 export_name(call.name()),
                 written_to(call)
             );
-            self.output.borrow_mut().print(line);
+            self.output.borrow_mut().print(line, None);
         }
         Ok(numbers.into_iter().map(canonical).collect())
     }

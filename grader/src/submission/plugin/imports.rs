@@ -145,7 +145,7 @@ pub(super) fn linker(engine: &Engine) -> Result<Linker<State>, Error> {
         "log",
         |mut caller: Caller<'_, State>, at: u32, bytes: u32| {
             let line = text(&mut caller, at, bytes)?;
-            caller.data().output.borrow_mut().print(line);
+            caller.data().output.borrow_mut().print(line, None);
             Ok::<_, Error>(())
         },
     )?;

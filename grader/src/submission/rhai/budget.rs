@@ -178,9 +178,10 @@ impl Meter {
         }
     }
 
-    /// Adds a line to the log.
-    pub(super) fn print(&self, line: String) {
-        self.output.borrow_mut().print(line);
+    /// Adds a line to the log, printed by the built-in that is called now.
+    pub(super) fn print(&self, text: String) {
+        let line = self.last_place().map(|place| place.line);
+        self.output.borrow_mut().print(text, line);
     }
 
     /// Adds a value to a signal.

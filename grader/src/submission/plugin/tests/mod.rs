@@ -222,7 +222,7 @@ fn what_is_not_written_is_not_a_number() {
     // the mark of what is not written goes no further
     assert_eq!(command[1].to_bits(), f64::NAN.to_bits());
     assert_eq!(
-        answer.said.log,
+        answer.said.texts(),
         ["`km_control` writes nothing to `command[1]`: the result is not a number"]
     );
     // a NaN that was computed is another matter
@@ -230,7 +230,7 @@ fn what_is_not_written_is_not_a_number() {
     let text = format!(
         "(f64.store (local.get 1) {computed}) (f64.store offset=8 (local.get 1) {computed})"
     );
-    assert_eq!(control(&body(&text)).unwrap().said.log, [""; 0]);
+    assert_eq!(control(&body(&text)).unwrap().said.texts(), [""; 0]);
 }
 
 #[test]
@@ -447,9 +447,9 @@ fn output_is_kept_up_to_its_budget() {
     let said = control(&text).unwrap().said;
     assert_eq!(said.plots, [("hi".to_owned(), 4.0)]);
     assert_eq!(said.log.len(), 1001);
-    assert_eq!(said.log[0], "hi\u{fffd}");
+    assert_eq!(said.log[0].text, "hi\u{fffd}");
     assert_eq!(
-        said.log[1000],
+        said.log[1000].text,
         "more than 1000 lines are printed: the rest is not kept"
     );
     let long = text.replace("(i32.const 3))\n", "(i32.const 4001))\n");

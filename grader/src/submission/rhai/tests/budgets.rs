@@ -9,7 +9,7 @@ fn a_mistake_can_be_caught_and_a_budget_cannot() {
     assert_eq!(
         answer("try { sin(\"a\") } catch (e) { print(e); } 3")
             .said
-            .log,
+            .texts(),
         ["`sin` takes a number or a vector, got the string \"a\""]
     );
     assert!(matches!(
@@ -441,7 +441,7 @@ fn what_is_shown_beyond_the_most_is_left_out_and_said_once() {
             assert!(said.log.is_empty() && said.plots.is_empty(), "{said:?}");
             continue;
         }
-        let log = said.log.join("\n");
+        let log = said.texts().join("\n");
         let expected = "0\n1\n2\n3\nmore than 3 values are plotted: the rest is not kept\nmore than 4 lines are printed: the rest is not kept";
         assert_eq!(log, expected);
         assert_eq!(said.plots.len(), 3);

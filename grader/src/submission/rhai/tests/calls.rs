@@ -11,7 +11,7 @@ fn what_is_printed_and_plotted_comes_with_the_answer() {
     let answer = answer(
         "print(observation.q, 1, \"x\"); debug(#{a: [1, \"t\"]}); plot(\"e\", 1); plot(\"q\", observation.q); 0",
     );
-    assert_eq!(answer.said.log, ["[0.25, 0.5] 1 x", "#{a: [1, \"t\"]}"]);
+    assert_eq!(answer.said.texts(), ["[0.25, 0.5] 1 x", "#{a: [1, \"t\"]}"]);
     assert_eq!(
         answer.said.plots,
         [
@@ -24,10 +24,36 @@ fn what_is_printed_and_plotted_comes_with_the_answer() {
 }
 
 #[test]
+fn a_printed_line_knows_the_line_of_the_script_that_printed_it() {
+    let script = "fn say(x) {
+  print(x + sqrt(x));
+}
+fn control(o) {
+  say(4.0); print(
+    -1);
+  if true { debug(3); }
+  say(9.0);
+  let e = sqrt(-1.0);
+  e
+}";
+    let mut script = ScriptController::open(&opening(script)).unwrap();
+    let said = match script.call(&Call::Control(observation())) {
+        Ok(answer) => answer.said,
+        Err(_) => script.unanswered(),
+    };
+    let lines: Vec<_> = said.log.iter().map(|printed| printed.line).collect();
+    let texts = said.texts();
+    assert_eq!(texts[..4], ["6.0", "-1", "3", "12.0"]);
+    assert_eq!(lines[..4], [Some(2), Some(5), Some(7), Some(2)]);
+    // what the grader says among them stands in no line
+    assert!(lines[4..].iter().all(Option::is_none), "{said:?}");
+}
+
+#[test]
 fn lines_printed_before_a_mistake_are_not_lost() {
     let mut script = ScriptController::open(&opening("fn control(o) { print(1); o.zz }")).unwrap();
     assert!(script.call(&Call::Control(observation())).is_err());
-    assert_eq!(script.unanswered().log, ["1"]);
+    assert_eq!(script.unanswered().texts(), ["1"]);
 }
 
 #[test]

@@ -426,7 +426,7 @@ fn an_unfinished_file_is_reported_where_its_block_begins() {
 fn an_answer_that_is_no_number_says_in_the_log_where_it_began() {
     let answer = answer("let a = sqrt(4);\nlet b = acos([0.5, 1.5]);\na + sqrt(-b)");
     assert_eq!(
-        answer.said.log,
+        answer.said.texts(),
         ["line 2: `acos` takes a number from -1 to 1, got 1.5: the result is not a number"]
     );
 }
