@@ -96,6 +96,28 @@ pub fn shortened(text: &str, max: usize) -> String {
     cut
 }
 
+/// [`visible`] text of at most `max` characters that ends with a whole sentence, or else with a whole word and an ellipsis.
+pub(crate) fn shortened_in_words(text: &str, max: usize) -> String {
+    let cut = shortened(text, max);
+    // what is not cut has no ellipsis of ours
+    if cut.chars().count() < max || visible(text) == cut {
+        return cut;
+    }
+    let kept = cut.trim_end_matches('…');
+    // a sentence that is less than a half says too little
+    let sentence = kept.rfind(". ").filter(|end| 2 * end >= kept.len());
+    if let Some(end) = sentence {
+        return kept[..=end].to_owned();
+    }
+    match kept.rfind(' ').filter(|end| 2 * end >= kept.len()) {
+        Some(end) => {
+            let words = kept[..end].trim_end_matches([',', ';', ':', '(', ' ', '-']);
+            format!("{words} …")
+        }
+        None => cut,
+    }
+}
+
 /// A file name without extension of lowercase letters, digits and hyphens: safe on every system.
 pub(crate) fn file_stem(text: &str) -> String {
     let mut stem = String::new();
@@ -164,6 +186,29 @@ mod tests {
         assert_eq!(shortened("abcdef", 6), "abcdef");
         assert_eq!(shortened("abcdefg", 6), "abcde…");
         assert_eq!(shortened(&"x".repeat(1_000_000), 4), "xxx…");
+    }
+
+    #[test]
+    fn long_words_end_with_a_sentence_or_a_word() {
+        let short = "It stops here.";
+        assert_eq!(shortened_in_words(short, 14), short);
+        let two = "The first is said. The second is far too long to be said.";
+        assert_eq!(shortened_in_words(two, 30), "The first is said.");
+        // the first sentence alone would say too little
+        let little = "No. The second is far too long to be said at all";
+        assert_eq!(
+            shortened_in_words(little, 30),
+            "No. The second is far too …"
+        );
+        let value = "on the line, up to (root mean square) far beyond the band";
+        assert_eq!(shortened_in_words(value, 21), "on the line, up to …");
+        assert_eq!(shortened_in_words(&"x".repeat(30), 10), "xxxxxxxxx…");
+        for max in 1..60 {
+            for text in [two, little, value] {
+                let said = shortened_in_words(text, max);
+                assert!(said.chars().count() <= max, "{max}: {said}");
+            }
+        }
     }
 
     #[test]

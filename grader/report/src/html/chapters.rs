@@ -5,7 +5,7 @@ use maud::{Markup, PreEscaped, html};
 use super::prose;
 use super::viewer::seek_with;
 use crate::storyboard::chapters as panels;
-use crate::visible::shortened;
+use crate::visible::shortened_in_words;
 use kinemark_grader::record::grade::TaskGrade;
 use kinemark_grader::record::graded::TaskRun;
 use kinemark_sim::text::number::seconds;
@@ -26,7 +26,7 @@ pub(super) fn chapters(index: usize, run: &TaskRun, task: &TaskGrade) -> Markup 
                             (PreEscaped(&chapter.svg))
                             span class="badge" { (i + 1) } " " (seconds(chapter.time_s).replace(' ', "\u{a0}"))
                         }))
-                        @for words in chapter.words.iter().take(MOST_WORDS) { p { (prose(&shortened(words, MOST_CHARACTERS))) } }
+                        @for words in chapter.words.iter().take(MOST_WORDS) { p { (prose(&shortened_in_words(words, MOST_CHARACTERS))) } }
                     }
                 }
             }

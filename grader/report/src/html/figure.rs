@@ -2,6 +2,7 @@
 
 use maud::{Markup, PreEscaped, html};
 
+use super::kept_with_units;
 use crate::plot::Plot;
 use crate::visible::visible;
 
@@ -28,7 +29,7 @@ fn drawn(plot: &Plot, task: Option<&str>) -> Markup {
             @if let Some(head) = head {
                 figcaption {
                     b { (plot.title) }
-                    ul { @for (swatch, words) in &head.legend { li { (PreEscaped(swatch)) (words) } } }
+                    ul { @for (swatch, words) in &head.legend { li { (PreEscaped(swatch)) (kept_with_units(words)) } } }
                 }
             }
         }

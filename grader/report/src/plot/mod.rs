@@ -19,6 +19,7 @@ mod thin;
 mod timeline;
 mod view;
 
+use self::canvas::{Entry, WIDTH};
 pub(crate) use self::case_picture::{case_legend, case_picture};
 pub use self::differences::differences;
 pub use self::histogram::{Histogram, histogram};
@@ -27,6 +28,9 @@ use self::reading::Axes;
 pub use self::step_response::{ResponseCurve, ResponsePanel, ResponsePicture, response_picture};
 use crate::visible::{file_stem, shortened};
 use kinemark_grader::record::graded::TaskRun;
+
+/// The picture of the path, in its file name.
+const PATH: &str = "path";
 
 /// One picture.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -54,6 +58,19 @@ pub(crate) struct Head {
     pub(crate) of_width: String,
 }
 
+impl Head {
+    /// The head of a picture of a height, whose first panel begins below `top`.
+    fn above(legend: &[Entry], top: f64, height: f64) -> Self {
+        // the first heading reaches a little higher where its letters are larger
+        let percent = |of: f64| format!("{:.2}%", 100.0 * (top - 5.0) / of);
+        Self {
+            legend: legend.iter().map(Entry::shown).collect(),
+            of_height: percent(height),
+            of_width: percent(WIDTH),
+        }
+    }
+}
+
 impl Plot {
     /// The picture as a file of its own, with a line at its foot that says where it is from, as `01-kinematics · move`.
     pub fn captioned(&self, caption: &str) -> String {
@@ -75,8 +92,8 @@ pub fn plots(run: &TaskRun) -> Vec<Plot> {
         stem: file_stem(&run.task),
         made: Vec::new(),
     };
-    if let Some((svg, title, axes)) = path::path(run) {
-        plots.add("path", title, svg, &axes, None);
+    if let Some((svg, title, axes, head)) = path::path(run) {
+        plots.add(PATH, title, svg, &axes, Some(head));
     }
     let mut pictures: Vec<(String, timeline::Timeline)> = Vec::new();
     pictures.extend(signals::error(run).map(|picture| ("error".to_owned(), picture)));
@@ -105,6 +122,11 @@ pub fn plots(run: &TaskRun) -> Vec<Plot> {
         plots.add(&name, picture.title, svg, &axes, Some(head));
     }
     plots.made
+}
+
+/// The file of the picture of a task's path, in the folder of a report's plots.
+pub fn path_file(task: &str) -> String {
+    format!("{}-{PATH}.svg", file_stem(task))
 }
 
 /// Plots with names that differ.
@@ -189,6 +211,17 @@ mod tests {
     }
 
     /// Values read off a picture are those of the run.
+    #[test]
+    fn the_picture_of_a_path_is_found_by_its_task() {
+        let plots = plots(&sample::task_run());
+        let file = path_file("move");
+        assert!(
+            plots
+                .iter()
+                .any(|plot| format!("{}.svg", plot.name) == file)
+        );
+    }
+
     #[test]
     fn axes_show_where_values_lie() {
         let run = sample::task_run();

@@ -5,6 +5,7 @@ use kinemark_sim::spatial::Pose;
 use kinemark_sim::text::number::seconds;
 use nalgebra::Vector3;
 
+use super::Head;
 use super::axis::Axis;
 use super::canvas::{Align, Canvas, Entry, Swatch, WIDTH, picture, text_width};
 use super::given_paths::GivenPaths;
@@ -32,7 +33,7 @@ const MOST_CLOSE_LOOKS: usize = 6;
 const MOST_GOALS: usize = 200;
 
 /// The picture, its title and where its axes lie; `None` where there is nothing to draw.
-pub(super) fn path(run: &TaskRun) -> Option<(String, String, Vec<Axes>)> {
+pub(super) fn path(run: &TaskRun) -> Option<(String, String, Vec<Axes>, Head)> {
     let positions = |tick: usize| {
         let p = run.trace.tcp_position(tick);
         [p.x, p.y, p.z]
@@ -70,8 +71,8 @@ pub(super) fn path(run: &TaskRun) -> Option<(String, String, Vec<Axes>)> {
         arms: arms(run).map(|arm| arm.map_or_else(Vec::new, |arm| flat(&arm))),
     };
     let title = format!("TCP path in the frame {}", shortened(&run.seen_from, 40));
-    let (svg, axes) = drawn.draw(&title);
-    Some((svg, title, axes))
+    let (svg, axes, head) = drawn.draw(&title);
+    Some((svg, title, axes, head))
 }
 
 /// The frame of the path's coordinates, with the arm at home.
@@ -120,11 +121,11 @@ struct PathPicture<'a> {
 }
 
 impl PathPicture<'_> {
-    fn draw(&self, title: &str) -> (String, Vec<Axes>) {
+    fn draw(&self, title: &str) -> (String, Vec<Axes>, Head) {
         let legend = self.legend();
         let mut top = 0.0;
         picture("", 1.0, |canvas| top = canvas.legend(&legend, 20.0, 50.0));
-        let view = View::around(&self.extremes(), top + 21.0);
+        let view = View::around(&self.extremes(), top + 27.0);
         let close: Vec<&Goal> = self
             .goals
             .iter()
@@ -169,7 +170,8 @@ impl PathPicture<'_> {
                 axes.push(Axes::in_plane(&view, &self.plane));
             }
         });
-        (svg, axes)
+        let head = Head::above(&legend, top, height);
+        (svg, axes, head)
     }
 
     fn legend(&self) -> Vec<Entry> {
@@ -377,7 +379,7 @@ impl PathPicture<'_> {
             pixels_per_m: size / (2.0 * half_m),
         };
         let (across, up) = (self.plane.across.letter(), self.plane.up.letter());
-        let heading = format!("goal {number}: {across} and {up} from it [mm]");
+        let heading = format!("goal {number}: {across}, {up} [mm]");
         canvas.heading(&heading, (left, top));
         view.ground(canvas, centre, 1e3, &self.plane);
         self.circles(canvas, goal, view.at(centre), view.pixels_per_m);

@@ -143,13 +143,7 @@ impl Timeline {
                 }
             }
         });
-        // the first heading reaches a little higher where its letters are larger
-        let percent = |of: f64| format!("{:.2}%", 100.0 * (top - 5.0) / of);
-        let head = Head {
-            legend: legend.iter().map(Entry::shown).collect(),
-            of_height: percent(height),
-            of_width: percent(WIDTH),
-        };
+        let head = Head::above(&legend, top, height);
         (svg, axes, head)
     }
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::initial_contact::begins_initial;
 use crate::moment::has_lost;
-use crate::visible::shortened;
+use crate::visible::{shortened, shortened_in_words};
 use kinemark_grader::record::grade::TaskGrade;
 use kinemark_grader::record::graded::TaskRun;
 use kinemark_grader::record::quantity::with_unit;
@@ -76,7 +76,7 @@ pub(super) fn ends(kind: &EventKind) -> bool {
 
 /// Words without the marks of code, which a picture does not show.
 fn plain(text: &str) -> String {
-    shortened(&text.replace('`', ""), MOST_CHARACTERS)
+    shortened_in_words(&text.replace('`', ""), MOST_CHARACTERS)
 }
 
 /// Events of a run by time, with the first breach of every check that lost points.
