@@ -162,6 +162,25 @@ fn several_reports_are_listed_with_what_they_earned() {
     let folder = "/s1%20%3Cb%3E";
     let page = format!("{folder}/report.html");
     assert_eq!(serving.get(&page).code, 200);
+    // its picture has the report's own address, too
+    let pictures = list.body.split("<img src=\"").skip(1);
+    let pictures: Vec<&str> = pictures.filter_map(|rest| rest.split('"').next()).collect();
+    let [picture] = pictures.as_slice() else {
+        panic!("one report of five has a picture: {pictures:?}")
+    };
+    let (own, file) = picture.split_at(picture.find("/s1").expect("the report"));
+    // of the motion tasks the one that lost most
+    let lost = |task: &&serde_json::Value| {
+        let number = |key: &str| task[key].as_f64().expect(key);
+        (100.0 * (number("max_points") - number("points"))).round() as i64
+    };
+    let tasks = record["tasks"].as_array().expect("tasks").iter();
+    let motions = tasks.filter(|task| task["kind"] == "motion");
+    let most = motions.max_by_key(lost).expect("a motion");
+    let name = most["name"].as_str().expect("a name");
+    assert_eq!(file, format!("/s1%20%3Cb%3E/plots/{name}-path.svg"));
+    let got = serving.get_from(own, file);
+    assert!(got.code == 200 && got.body.starts_with("<svg"), "{got:?}");
     // a page that somebody sent knows its own address: it opens nothing else
     let links = list.body.split("href=\"").skip(1);
     let mut links = links.filter_map(|link| link.split('"').next());

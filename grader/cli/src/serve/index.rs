@@ -4,13 +4,14 @@ use std::path::Path;
 
 use kinemark_course::page::SORTED_TABLE;
 use kinemark_course::staffed_lab::engine_id;
-use kinemark_grader::record::grade::{Grade, GradeMode};
+use kinemark_grader::record::grade::{Grade, GradeMode, TaskGrade, TaskKind};
 use kinemark_grader::record::quantity::points;
 use kinemark_grader::record::sums;
 use kinemark_grader::record::verdict::Verdict;
 use kinemark_report::html::{StaticPage, verdict_words};
 use kinemark_report::moment::ADDRESS_PART;
-use kinemark_report::output::{PAGE_FILE, RECORD_FILE};
+use kinemark_report::output::{PAGE_FILE, PLOT_FOLDER, RECORD_FILE};
+use kinemark_report::plot::path_file;
 use kinemark_report::visible::visible;
 use maud::{Markup, html};
 use percent_encoding::utf8_percent_encode;
@@ -33,6 +34,8 @@ struct Entry {
     folder: String,
     page: &'static str,
     grade: Option<Grade>,
+    /// The picture beside it, in its folder.
+    picture: Option<String>,
 }
 
 /// Whether there is anything to look at in `folder`.
@@ -58,11 +61,33 @@ fn found(folder: &Path) -> impl Iterator<Item = (String, &'static str)> {
 
 fn entry(folder: &Path, name: String, page: &'static str) -> Entry {
     let record = beneath::bytes(folder, &format!("{name}/{RECORD_FILE}"), 64 << 20).ok();
+    let grade: Option<Grade> = record.and_then(|record| serde_json::from_slice(&record).ok());
+    let picture = grade
+        .as_ref()
+        .and_then(|grade| picture(folder, &name, grade));
     Entry {
         folder: name,
         page,
-        grade: record.and_then(|record| serde_json::from_slice(&record).ok()),
+        grade,
+        picture,
     }
+}
+
+/// The picture of the path of a motion task. Of several tasks it is that of the one that lost most, else of the last.
+fn picture(folder: &Path, name: &str, grade: &Grade) -> Option<String> {
+    let lost = |task: &TaskGrade| task.max_points - task.points;
+    let mut tasks: Vec<&TaskGrade> = grade
+        .tasks
+        .iter()
+        .filter(|task| task.kind == TaskKind::Motion)
+        .collect();
+    tasks.reverse();
+    tasks.sort_by(|a, b| lost(b).total_cmp(&lost(a)));
+    let files = tasks
+        .iter()
+        .map(|task| format!("{PLOT_FOLDER}/{}", path_file(&task.name)));
+    let mut there = files.filter(|file| files::is_there(folder, &format!("{name}/{file}")));
+    there.next()
 }
 
 /// The list as a page; each report has an address of its own.
@@ -102,7 +127,7 @@ pub(super) fn page(folder: &Path, token: &Token) -> String {
         css: include_str!("index.css"),
         script: Some(SORTED_TABLE),
     };
-    page.around(&body)
+    page.around_with_pictures(&body)
 }
 
 /// How many reports there are, and how many of them have full marks.
@@ -123,12 +148,14 @@ fn sum(entries: &[Entry]) -> Option<String> {
 
 /// The table, which a browser that runs scripts sorts by a click on the name of a column.
 fn table(entries: &[Entry], token: &Token) -> Markup {
+    let shows_pictures = entries.iter().any(|entry| entry.picture.is_some());
     html! {
         div class="wide" tabindex="0" role="group" aria-label="Reports" {
             table data-sortable {
                 caption class="unseen" { "Reports with what each earned" }
                 thead {
                     tr {
+                        @if shows_pictures { th scope="col" class="still" data-unsorted { span class="unseen" { "Picture" } } }
                         th scope="col" { "Report" }
                         th scope="col" { "Lab" }
                         th scope="col" { "Submission" }
@@ -138,21 +165,28 @@ fn table(entries: &[Entry], token: &Token) -> Markup {
                         th scope="col" class="number" { "Share" }
                     }
                 }
-                tbody { @for entry in entries { (row(entry, token)) } }
+                tbody { @for entry in entries { (row(entry, token, shows_pictures)) } }
             }
         }
     }
 }
 
-fn row(entry: &Entry, token: &Token) -> Markup {
+fn row(entry: &Entry, token: &Token, shows_pictures: bool) -> Markup {
     let folder = utf8_percent_encode(&entry.folder, ADDRESS_PART);
-    let link = format!(
-        "/{}/{folder}/{}",
-        token.of_folder(&entry.folder),
-        entry.page
-    );
+    let address = format!("/{}/{folder}", token.of_folder(&entry.folder));
+    let link = format!("{address}/{}", entry.page);
     html! {
         tr {
+            @if shows_pictures {
+                td class="still" {
+                    @if let Some(file) = &entry.picture {
+                        // the same link as the name beside it
+                        a href=(link) tabindex="-1" aria-hidden="true" {
+                            img src={ (address) "/" (file) } alt="" loading="lazy";
+                        }
+                    }
+                }
+            }
             th scope="row" { a href=(link) { bdi { (visible(&entry.folder)) } } }
             @match &entry.grade {
                 Some(grade) => {
@@ -213,6 +247,7 @@ fn is_consistent(grade: &Grade) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use kinemark_grader::record::sample;
 
     #[test]
     fn names_are_parts_of_addresses_and_text() {
@@ -232,6 +267,36 @@ mod tests {
         assert!(!page.contains("<b>"), "{page}");
         assert!(page.contains("data-sortable") && page.contains("script-src 'sha256-"));
         assert!(page.contains("its record cannot be read"));
+    }
+
+    #[test]
+    fn a_report_has_the_picture_of_the_task_that_lost_most() {
+        let bed = tempfile::tempdir().unwrap();
+        let report = bed.path().join("mine");
+        std::fs::create_dir_all(report.join("plots")).unwrap();
+        std::fs::write(report.join("report.html"), "").unwrap();
+        let mut grade = sample::graded().grade;
+        grade.tasks.retain(|task| task.kind == TaskKind::Motion);
+        for (name, points) in [("lost", 1.0), ("full", 4.0)] {
+            let mut task = grade.tasks[0].clone();
+            (task.name, task.points, task.max_points) = (name.to_owned(), points, 4.0);
+            grade.tasks.push(task);
+        }
+        grade
+            .tasks
+            .retain(|task| ["lost", "full"].contains(&task.name.as_str()));
+        let lost = "lost";
+        let record = serde_json::to_string(&grade).unwrap();
+        std::fs::write(report.join("grade.json"), record).unwrap();
+        let token = Token::fresh().unwrap();
+        let of_mine = format!("<img src=\"/{}/mine/", token.of_folder("mine"));
+        let listed = || page(bed.path(), &token);
+        assert!(!listed().contains("<img"), "there is no picture");
+        std::fs::write(report.join("plots/full-path.svg"), "").unwrap();
+        assert!(listed().contains(&format!("{of_mine}plots/full-path.svg\"")));
+        std::fs::write(report.join(format!("plots/{lost}-path.svg")), "").unwrap();
+        assert!(listed().contains(&format!("{of_mine}plots/{lost}-path.svg\"")));
+        assert!(listed().contains("img-src 'self'"));
     }
 
     #[test]

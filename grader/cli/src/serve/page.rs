@@ -18,8 +18,8 @@ const SCRIPT_DIGEST: &str = include_str!("reload.js.sha256");
 /// that it can neither read what else lies on this server nor keep anything in the browser.
 const ALONE: &str = "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; \
                      img-src data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-/// A list sorts and filters: its own policy names the one script that runs.
-const LIST: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; base-uri 'none'; \
+/// A list sorts and filters, and shows pictures of reports: its own policy names the one script that runs.
+const LIST: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src 'self'; base-uri 'none'; \
                          form-action 'none'; frame-ancestors 'none'";
 /// What a page of ours may do that follows: its own policy lets the scripts run that it names, and no others.
 const FOLLOWING: &str = "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; \

@@ -30,12 +30,21 @@ pub struct SmallScript<'a> {
 impl StaticPage<'_> {
     /// The page around `body`. It asks nothing of the network; the same page gives the same bytes.
     pub fn around(&self, body: &Markup) -> String {
+        self.with_pictures_from("data:", body)
+    }
+
+    /// The page around `body` as it is served, with pictures of the server that it comes from.
+    pub fn around_with_pictures(&self, body: &Markup) -> String {
+        self.with_pictures_from("'self' data:", body)
+    }
+
+    fn with_pictures_from(&self, images: &str, body: &Markup) -> String {
         let page = html! {
             (DOCTYPE)
             html lang="en" {
                 head {
                     meta charset="utf-8";
-                    meta http-equiv="Content-Security-Policy" content=(self.policy());
+                    meta http-equiv="Content-Security-Policy" content=(self.policy(images));
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     meta name="color-scheme" content="light dark";
                     meta name="referrer" content="no-referrer";
@@ -52,13 +61,13 @@ impl StaticPage<'_> {
         page.into_string()
     }
 
-    fn policy(&self) -> String {
+    fn policy(&self, images: &str) -> String {
         let script = self.script.map(|script| {
             let digest = script.digest.trim();
             format!("script-src 'sha256-{digest}'; ")
         });
         format!(
-            "default-src 'none'; {}style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'",
+            "default-src 'none'; {}style-src 'unsafe-inline'; img-src {images}; base-uri 'none'; form-action 'none'",
             script.unwrap_or_default()
         )
     }
@@ -81,6 +90,11 @@ mod tests {
         assert!(still.contains("<title>A &lt;class&gt;⟨U+202E⟩</title>"));
         assert!(still.contains(".own{color:red}") && still.contains("<p>x</p></body>"));
         assert!(!still.contains("script"));
+        assert!(still.contains("img-src data:;"));
+        assert!(
+            page.around_with_pictures(&body)
+                .contains("img-src 'self' data:;")
+        );
         page.script = Some(SmallScript {
             code: "let a = 1 < 2;",
             digest: "abc=\n",

@@ -20,7 +20,7 @@ pub const LAB_FOLDER: &str = "lab";
 /// The folder of the sources that were handed in beside a module.
 pub const SOURCES_FOLDER: &str = "sources";
 /// The folder of the plots.
-const PLOT_FOLDER: &str = "plots";
+pub const PLOT_FOLDER: &str = "plots";
 
 /// One output: a row of the table.
 #[derive(Debug, Clone, Copy)]
