@@ -136,6 +136,48 @@ fn a_renamed_command_says_its_new_name_and_does_nothing() {
     }
 }
 
+/// Each cause has a code of its own, with the exit code that docs/terminal.md lists.
+#[test]
+fn failures_of_one_exit_code_have_codes_of_their_own() {
+    let bed = TestBed::new();
+    bed.write("empty/file", "");
+    bed.write("mine/submission.rhai", "");
+    let taken = std::net::TcpListener::bind("127.0.0.1:0").expect("a port");
+    let port = taken.local_addr().expect("its number").port().to_string();
+    let cases: &[(&[&str], &str, i32)] = &[
+        (&["compare", "nowhere", "empty"], "cli::no_file", 2),
+        (
+            &["log", "export", "nowhere.mcap", "--csv"],
+            "cli::no_file",
+            2,
+        ),
+        (&["robot", "show", "no-such"], "cli::unknown_name", 2),
+        (&["grade", "no-such", "mine"], "lab::unknown_lab", 2),
+        (
+            &["compare", "empty", "empty", "--out", "mine"],
+            "cli::exists",
+            2,
+        ),
+        (&["compare", "empty", "empty"], "cli::no_report", 3),
+        (&["view", "empty"], "cli::no_report", 3),
+    ];
+    for (args, code, exit) in cases {
+        let ran = bed.run(&[args, &["--json"][..]].concat());
+        assert_eq!(ran.code, Some(*exit), "{args:?} {ran:?}");
+        let printed: serde_json::Value = serde_json::from_str(&ran.stdout).expect("JSON");
+        assert_eq!(printed["error"]["code"], *code, "{args:?} {ran:?}");
+    }
+    let good = crate::testbed::root().join("tests/submissions/01-kinematics/good/submission.rhai");
+    bed.write(
+        "good.rhai",
+        std::fs::read_to_string(good).expect("a submission"),
+    );
+    let ran = bed.run(&["grade", "01-kinematics", "good.rhai", "--out", "out", "-q"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let ran = bed.run(&["view", "out", "--no-open", "--port", &port, "--json"]);
+    assert!(ran.stdout.contains("\"cli::port\""), "{ran:?}");
+}
+
 #[test]
 fn help_and_usage_errors_have_their_codes() {
     let bed = TestBed::new();

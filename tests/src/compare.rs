@@ -58,6 +58,37 @@ fn motions_with_the_same_bits_are_said_to_be_the_same() {
 }
 
 #[test]
+fn compare_takes_the_options_of_grade() {
+    let bed = graded();
+    let full = bed.run(&["compare", "a", "b", "-v", "--label", "Ada <1>"]);
+    assert_eq!(full.code, Some(0), "{full:?}");
+    let page = std::fs::read_to_string(bed.path("kinemark-compare/compare.html")).expect("a page");
+    assert!(page.contains("<title>Ada &lt;1&gt;, 01-kinematics: "));
+    assert!(page.contains("<p class=\"whose\"><bdi>Ada &lt;1&gt;</bdi></p>"));
+    let folded = bed.run(&["compare", "a", "b", "--in-process"]);
+    let lines = |ran: &crate::testbed::CommandResult| ran.stdout.lines().count();
+    assert!(
+        folded
+            .stdout
+            .contains("checks have all their points in both"),
+        "{folded:?}"
+    );
+    assert!(!full.stdout.contains("in both"), "{full:?}");
+    assert!(lines(&full) > lines(&folded), "{full:?} {folded:?}");
+    let total = bed.run(&["compare", "a", "b", "-q"]);
+    assert_eq!(lines(&total), 1, "{total:?}");
+    assert!(full.stdout.contains(total.stdout.trim_end()), "{total:?}");
+    for refused in [
+        &["-q", "-v"][..],
+        &["--json", "-q"],
+        &["--in-process", "--require-sandbox"],
+    ] {
+        let ran = bed.run(&[&["compare", "a", "b"], refused].concat());
+        assert_eq!(ran.code, Some(2), "{refused:?} {ran:?}");
+    }
+}
+
+#[test]
 fn a_comparison_names_where_two_attempts_first_differ() {
     let bed = graded();
     let ran = bed.run(&["compare", "a", "b"]);

@@ -277,3 +277,40 @@ fn a_bad_request_is_answered_and_the_stream_goes_on() {
     assert_eq!(last["joints"][1]["name"], "elbow");
     assert_eq!(last["mass_kg"], 2.0);
 }
+
+#[test]
+fn with_json_answers_have_the_envelope_of_every_other_command() {
+    let bed = TestBed::new();
+    let requests = [
+        json!({"id": 1, "op": "fk", "q": [0.0, 0.0]}).to_string(),
+        json!({"id": 2, "op": "fk", "q": [0.0, 0.0], "frame": "tpc"}).to_string(),
+        "no JSON".to_owned(),
+    ];
+    let (answers, code) = eval_with(&bed, &["rrbot", "--json"], &requests);
+    assert_eq!((answers.len(), code), (3, Some(1)), "{answers:?}");
+    assert!(answers.iter().all(|answer| answer["format"] == 1));
+    let (plain, _) = eval_with(&bed, &["rrbot"], &requests);
+    assert_eq!(answers[0]["position_m"], plain[0]["position_m"]);
+    assert!(plain[0].get("format").is_none(), "{plain:?}");
+    for (answer, code) in answers[1..]
+        .iter()
+        .zip(["eval::unknown_frame", "eval::bad_json"])
+    {
+        let error = &answer["error"];
+        assert_eq!(error["code"], code, "{error}");
+        let mut fields: Vec<&str> = error
+            .as_object()
+            .expect("an error")
+            .keys()
+            .map(String::as_str)
+            .collect();
+        fields.sort_unstable();
+        assert_eq!(fields, ["code", "help", "message", "span"]);
+    }
+    // what is wrong before any request is one value of the same form
+    let ran = bed.run(&["robot", "eval", "no-such", "--json"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    let failed: Value = serde_json::from_str(&ran.stdout).expect("one value");
+    assert_eq!(failed["error"]["code"], "cli::unknown_name");
+    assert_eq!(failed["format"], 1);
+}

@@ -22,6 +22,7 @@ use kinemark_grader::task::problem::LoadError;
 use kinemark_sim::text::{Source, suggest};
 
 use crate::disk::Folder;
+use crate::error_record::ErrorCode;
 use crate::failure::{BROKEN, Failure, USAGE};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
@@ -143,7 +144,8 @@ impl Course {
         Err(Failure::usage(
             format!("no student `{id}` is in the roster"),
             &suggest(id.as_str(), "ids", known.take(2000)),
-        ))
+        )
+        .coded(ErrorCode::UnknownName))
     }
 
     /// The rules of a lab of the course.
@@ -154,6 +156,7 @@ impl Course {
                 format!("lab `{lab}` is not one of the course"),
                 &suggest(lab, "labs", known),
             )
+            .coded(ErrorCode::UnknownName)
         })
     }
 

@@ -5,6 +5,7 @@ use kinemark_course::journal::{Event, Writer};
 
 use crate::course_folder::{Course, book_failure};
 use crate::disk::plain;
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::operator::operator;
 use crate::output;
@@ -56,6 +57,6 @@ impl<'c> CourseLog<'c> {
                 plain(error)
             ),
             "free some space; what was graded so far stands, and the same command goes on from there",
-        )
+        ).coded(ErrorCode::Unwritten)
     }
 }

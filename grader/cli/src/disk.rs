@@ -8,6 +8,7 @@ use kinemark_grader::task::files::Files;
 use kinemark_grader::task::files::text;
 use kinemark_sim::text::Source;
 
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 
 /// A folder as [`Files`].
@@ -181,10 +182,10 @@ pub(crate) fn refuse_unlike(path: &Path, what: &str) -> Result<(), Failure> {
         ));
     }
     if !path.exists() {
-        return Err(Failure::usage(
-            format!("there is no file `{shown}`"),
-            &near_in_folder(path),
-        ));
+        return Err(
+            Failure::usage(format!("there is no file `{shown}`"), &near_in_folder(path))
+                .coded(ErrorCode::NoFile),
+        );
     }
     if !path.is_file() {
         return Err(Failure::usage(

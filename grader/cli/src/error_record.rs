@@ -4,6 +4,7 @@ use clap::error::ErrorKind;
 use miette::{Diagnostic, LabeledSpan, SourceCode};
 use serde::Serialize;
 
+use crate::failure::{BROKEN, FAULT, INTERRUPTED, USAGE};
 use crate::output::JSON_FORMAT;
 use crate::shown_diagnostic::lines;
 
@@ -22,10 +23,34 @@ pub(crate) enum ErrorCode {
     Missing,
     /// Two options exclude each other.
     Conflict,
+    /// There is no file or folder where one was named.
+    NoFile,
+    /// Nothing has the name that was given.
+    UnknownName,
+    /// Something is already where something is to be written.
+    Exists,
+    /// Two reports are of two labs.
+    OtherLab,
+    /// A lab may be part of what was handed in.
+    HandedIn,
+    /// This machine cannot seal a worker as was asked for.
+    Sandbox,
+    /// A port cannot be used.
+    Port,
     /// A file or a folder is not what it should be.
     Broken,
+    /// A folder is no report, or not a whole one.
+    NoReport,
+    /// A course has no book yet.
+    NoBook,
     /// This machine, or the grader, failed.
     Fault,
+    /// A compiler is missing.
+    NoCompiler,
+    /// Something cannot be written.
+    Unwritten,
+    /// This machine could not finish a run.
+    Undecided,
     /// Ctrl-C.
     Interrupted,
 }
@@ -33,15 +58,27 @@ pub(crate) enum ErrorCode {
 impl ErrorCode {
     /// All of them.
     #[cfg(test)]
-    const ALL: [Self; 9] = [
+    const ALL: [Self; 21] = [
         Self::Usage,
         Self::UnknownOption,
         Self::UnknownCommand,
         Self::Value,
         Self::Missing,
         Self::Conflict,
+        Self::NoFile,
+        Self::UnknownName,
+        Self::Exists,
+        Self::OtherLab,
+        Self::HandedIn,
+        Self::Sandbox,
+        Self::Port,
         Self::Broken,
+        Self::NoReport,
+        Self::NoBook,
         Self::Fault,
+        Self::NoCompiler,
+        Self::Unwritten,
+        Self::Undecided,
         Self::Interrupted,
     ];
 
@@ -54,9 +91,43 @@ impl ErrorCode {
             Self::Value => "cli::value",
             Self::Missing => "cli::missing",
             Self::Conflict => "cli::conflict",
+            Self::NoFile => "cli::no_file",
+            Self::UnknownName => "cli::unknown_name",
+            Self::Exists => "cli::exists",
+            Self::OtherLab => "cli::other_lab",
+            Self::HandedIn => "cli::handed_in",
+            Self::Sandbox => "cli::sandbox",
+            Self::Port => "cli::port",
             Self::Broken => "cli::broken",
+            Self::NoReport => "cli::no_report",
+            Self::NoBook => "cli::no_book",
             Self::Fault => "cli::fault",
+            Self::NoCompiler => "cli::no_compiler",
+            Self::Unwritten => "cli::unwritten",
+            Self::Undecided => "cli::undecided",
             Self::Interrupted => "cli::interrupted",
+        }
+    }
+
+    /// The exit code that a command ends with.
+    pub(crate) fn exit(self) -> u8 {
+        match self {
+            Self::Usage
+            | Self::UnknownOption
+            | Self::UnknownCommand
+            | Self::Value
+            | Self::Missing
+            | Self::Conflict
+            | Self::NoFile
+            | Self::UnknownName
+            | Self::Exists
+            | Self::OtherLab
+            | Self::HandedIn
+            | Self::Sandbox
+            | Self::Port => USAGE,
+            Self::Broken | Self::NoReport | Self::NoBook => BROKEN,
+            Self::Fault | Self::NoCompiler | Self::Unwritten | Self::Undecided => FAULT,
+            Self::Interrupted => INTERRUPTED,
         }
     }
 
@@ -244,7 +315,8 @@ mod tests {
         let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/terminal.md");
         let page = std::fs::read_to_string(page).expect("page");
         for code in ErrorCode::ALL {
-            assert!(page.contains(&format!("| `{}` |", code.name())), "{code:?}");
+            let row = format!("| `{}` | {} |", code.name(), code.exit());
+            assert!(page.contains(&row), "{code:?}");
         }
         let rows = page.lines().filter(|line| line.starts_with("| `cli::"));
         assert_eq!(rows.count(), ErrorCode::ALL.len());

@@ -28,6 +28,8 @@ pub(crate) const INTERRUPTED: u8 = 130;
 pub(crate) struct Failure {
     /// The exit code.
     code: u8,
+    /// The cause as programs read it, where it is more than the exit code.
+    cause: Option<ErrorCode>,
     diagnostic: Box<dyn Diagnostic + Send + Sync>,
 }
 
@@ -44,8 +46,16 @@ impl Failure {
     fn words(code: u8, message: String, help: Option<String>) -> Self {
         Self {
             code,
+            cause: None,
             diagnostic: Box::new(Words { message, help }),
         }
+    }
+
+    /// The same failure with its cause, as programs read it.
+    pub(crate) fn coded(mut self, cause: ErrorCode) -> Self {
+        debug_assert_eq!(cause.exit(), self.code, "{cause:?}");
+        self.cause = Some(cause);
+        self
     }
 
     /// Something typed that cannot be.
@@ -94,6 +104,7 @@ impl Failure {
     ) -> Self {
         Self {
             code,
+            cause: None,
             diagnostic: Box::new(diagnostic),
         }
     }
@@ -112,13 +123,13 @@ impl Failure {
 
     /// The failure as programs read it.
     pub(crate) fn record(&self) -> ErrorRecord {
-        let code = match self.code {
+        let of_exit = match self.code {
             USAGE => ErrorCode::Usage,
             BROKEN => ErrorCode::Broken,
             INTERRUPTED => ErrorCode::Interrupted,
             _ => ErrorCode::Fault,
         };
-        ErrorRecord::of(self.diagnostic.as_ref(), code)
+        ErrorRecord::of(self.diagnostic.as_ref(), self.cause.unwrap_or(of_exit))
     }
 }
 

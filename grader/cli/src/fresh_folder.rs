@@ -9,6 +9,7 @@ use kinemark_course::durable::{self, Readers};
 use kinemark_report::visible::visible;
 
 use crate::disk::{self, plain};
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::unfinished::{UnfinishedFolder, move_kept};
 
@@ -167,10 +168,10 @@ pub(crate) fn refuse_foreign(
         return Ok(Vec::new());
     }
     if !out.is_dir() {
-        return Err(Failure::usage(
-            format!("`{shown}` exists and is not a directory"),
-            help,
-        ));
+        return Err(
+            Failure::usage(format!("`{shown}` exists and is not a directory"), help)
+                .coded(ErrorCode::Exists),
+        );
     }
     let real = disk::real(out);
     let is_around_us =
@@ -191,7 +192,8 @@ pub(crate) fn refuse_foreign(
                 visible(path)
             ),
             help,
-        ));
+        )
+        .coded(ErrorCode::Exists));
     }
     Ok(others.into_iter().map(|(path, _)| path).collect())
 }

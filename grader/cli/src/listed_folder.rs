@@ -7,6 +7,7 @@ use kinemark_course::private_files::private_folder;
 use serde::{Deserialize, Serialize};
 
 use crate::disk::{self, plain};
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::output;
 
@@ -41,7 +42,8 @@ pub(crate) fn write(folder: &Path, files: &[(&str, &[u8])]) -> Result<(), Failur
                     output::path(&place)
                 ),
                 "move it away, or choose another folder with --out",
-            ));
+            )
+            .coded(ErrorCode::Exists));
         }
     }
     let now: BTreeSet<String> = files.iter().map(|(path, _)| (*path).to_owned()).collect();

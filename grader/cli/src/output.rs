@@ -12,6 +12,7 @@ use owo_colors::OwoColorize as _;
 use serde::Serialize;
 
 use crate::disk::plain;
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::unfinished::unfinished_file;
 use crate::wrapping;
@@ -28,7 +29,8 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::fault(
             format!("standard output cannot be written: {}", plain(&error)),
             "free some space, or send it elsewhere",
-        )),
+        )
+        .coded(ErrorCode::Unwritten)),
         _ => Ok(()),
     }
 }
@@ -128,7 +130,7 @@ pub(crate) fn write_new_file(path: &Path, bytes: &[u8], help: &str) -> Result<()
     match put() {
         Err(error) if error.kind() == ErrorKind::AlreadyExists => {
             let message = format!("`{}` is there already, and stays as it is", path.display());
-            Err(Failure::usage(message, help))
+            Err(Failure::usage(message, help).coded(ErrorCode::Exists))
         }
         result => result.map_err(|error| {
             unwritten(path, &error, "free some space, or make the folder writable")
@@ -144,7 +146,7 @@ pub(crate) fn write_private_file(path: &Path, bytes: &[u8], help: &str) -> Resul
 /// Why there is no file or folder at `path`.
 pub(crate) fn unwritten(path: &Path, error: &std::io::Error, help: &str) -> Failure {
     let message = format!("`{}` cannot be written: {}", path.display(), plain(error));
-    Failure::fault(message, help)
+    Failure::fault(message, help).coded(ErrorCode::Unwritten)
 }
 
 /// Writes to a temporary file beside `path`, then renames it.

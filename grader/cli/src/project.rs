@@ -15,6 +15,7 @@ use kinemark_course::tree::{Limits, Tree};
 use kinemark_course::working_folder::{FOLDER_FILE, SUBMISSION_FILE};
 
 use crate::disk::plain;
+use crate::error_record::ErrorCode;
 use crate::failure::{self, Failure};
 use crate::{interrupt, output, typed_path};
 
@@ -313,7 +314,8 @@ impl Project {
             return Err(Failure::fault(
                 format!("this machine cannot build {}: {missing}", language.name()),
                 toolchain,
-            ));
+            )
+            .coded(ErrorCode::NoCompiler));
         }
         let what = match run.is_good {
             true => format!("`{line}` left no module"),
@@ -361,6 +363,7 @@ impl Project {
                 format!("`{program}` cannot be run: {why}"),
                 language.toolchain().unwrap_or_default(),
             )
+            .coded(ErrorCode::NoCompiler)
         };
         let mut child = command.spawn().map_err(missing)?;
         let words = child.stderr.take().map(shown_and_kept).unwrap_or_default();

@@ -22,6 +22,7 @@ use kinemark_sim::text::Source;
 
 use crate::beneath::{self, FolderBeneath, Unread};
 use crate::disk::plain;
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::unfinished::is_there_or_restored;
@@ -61,7 +62,7 @@ pub(crate) fn write(
                     "free some space or choose another folder with --out; the grade above stands, and nothing half-written is left"
                 }
             },
-        )
+        ).coded(ErrorCode::Unwritten)
     };
     let fresh = FreshFolder::beside(out).map_err(failed)?;
     for file in &files {
@@ -85,7 +86,7 @@ pub(crate) fn refuse_foreign(out: &Path) -> Result<Vec<String>, Failure> {
                 out.display()
             ),
             "move or delete the folder, or choose another with --out",
-        ));
+        ).coded(ErrorCode::Exists));
     }
     fresh_folder::refuse_foreign(out, "a Kinemark report", |path| {
         // without a list of ours nothing in it is ours
@@ -180,14 +181,16 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
         return Err(Failure::usage(
             format!("there is no folder `{shown}`"),
             "name the folder that `kinemark grade` wrote",
-        ));
+        )
+        .coded(ErrorCode::NoFile));
     }
     let there = |name: &str| match folder.join(name).symlink_metadata() {
         Ok(_) => Ok(()),
         Err(_) => Err(Failure::broken(
             format!("`{shown}` has no {name}: it is not a complete report"),
             "name the folder that `kinemark grade` wrote, or grade the submission again",
-        )),
+        )
+        .coded(ErrorCode::NoReport)),
     };
     there(RECORD_FILE)?;
     let grade = record(folder)?;
@@ -208,6 +211,7 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
             format!("`{}` cannot be read: {why}", path.display()),
             "grade the submission again",
         )
+        .coded(ErrorCode::NoReport)
     })?;
     let sources = sources(folder, &manifest);
     Ok(Report {
@@ -284,6 +288,7 @@ pub(crate) fn record(folder: &Path) -> Result<Grade, Failure> {
             format!("`{shown}` is not a grade record of this version: {why}"),
             "grade the submission again",
         )
+        .coded(ErrorCode::NoReport)
     };
     let bytes = beneath::bytes(folder, RECORD_FILE, MOST_BYTES);
     let bytes = bytes.map_err(|why| unread(&why.to_string()))?;
@@ -312,6 +317,7 @@ fn manifest(folder: &Path) -> Result<Manifest, Failure> {
             ),
             "grade the submission again",
         )
+        .coded(ErrorCode::NoReport)
     })
 }
 
@@ -327,7 +333,8 @@ pub(crate) fn lab_of(report: &Report) -> Result<Lab, Failure> {
                 visible(&report.grade.lab.name)
             ),
             "grade the submission again",
-        ),
+        )
+        .coded(ErrorCode::NoReport),
         other => other.into(),
     })
 }

@@ -12,6 +12,7 @@ use kinemark_sim::model::unphysical::OnUnphysical;
 use kinemark_sim::text::suggest;
 
 use crate::disk::{self, MOST_MESH_BYTES, bytes_of};
+use crate::error_record::ErrorCode;
 use crate::failure::{BROKEN, Failure, USAGE};
 use crate::labs_folder::{self, LabsFolderArgs};
 
@@ -112,7 +113,8 @@ pub(crate) fn load(args: &RobotArgs) -> Result<Loaded, Failure> {
             "{}; a joint string is written like RzRyRz, with --links",
             suggest(&name, "robots", known.iter().map(String::as_str))
         ),
-    ))
+    )
+    .coded(ErrorCode::UnknownName))
 }
 
 fn broken(error: RobotError) -> Failure {

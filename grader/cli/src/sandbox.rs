@@ -1,5 +1,6 @@
 //! Grading only where workers are sealed.
 
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::worker::probe;
 
@@ -9,6 +10,16 @@ pub(crate) struct SandboxArgs {
     /// Refuse to grade where this machine does not seal workers: see `kinemark doctor`
     #[arg(long)]
     pub(crate) require_sandbox: bool,
+}
+
+/// How a submission is run.
+#[derive(Debug, Clone, Copy, clap::Args)]
+pub(crate) struct RunArgs {
+    /// Run the submission in this process: for profiling trusted code
+    #[arg(long, conflicts_with = "require_sandbox")]
+    pub(crate) in_process: bool,
+    #[command(flatten)]
+    pub(crate) sandbox: SandboxArgs,
 }
 
 impl SandboxArgs {
@@ -31,6 +42,6 @@ impl SandboxArgs {
                 missing.join("; ")
             ),
             "grade on Linux 6.12 or later, where Landlock and seccomp are not switched off, or leave the option out",
-        ))
+        ).coded(ErrorCode::Sandbox))
     }
 }

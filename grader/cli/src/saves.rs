@@ -10,6 +10,7 @@ use notify::{EventKind, RecursiveMode, Watcher as _};
 
 use crate::commands::grade;
 use crate::disk::{self, plain};
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::project::Project;
 use crate::{labs_folder, staff_folder};
@@ -186,7 +187,8 @@ fn real(file: &Path) -> Result<PathBuf, Failure> {
         _ => Err(Failure::usage(
             format!("there is no file `{}`", file.display()),
             "check the path",
-        )),
+        )
+        .coded(ErrorCode::NoFile)),
     }
 }
 

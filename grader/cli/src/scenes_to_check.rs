@@ -13,6 +13,7 @@ use kinemark_toolbox::scene_check::{ArmInScene, SceneToCheck};
 
 use crate::commands::scene_check::Args;
 use crate::disk::Folder;
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::robot_source::{self, RobotArgs};
 use crate::typed_numbers::{numbers, points};
@@ -83,7 +84,8 @@ fn lab(args: &Args) -> Result<Option<Lab>, Failure> {
     Err(Failure::usage(
         format!("there is no scene file, scene or lab `{name}`"),
         &suggest(&name, "scenes and labs", known),
-    ))
+    )
+    .coded(ErrorCode::UnknownName))
 }
 
 /// The folder of labs that `folder` lies in, and its name there.
@@ -187,7 +189,8 @@ fn arm(args: &Args) -> Result<Option<ArmInScene>, Failure> {
         return Err(Failure::usage(
             format!("robot `{name}` has no frame `{frame}`"),
             &suggest(&frame, "frames", known.iter().map(String::as_str)),
-        ));
+        )
+        .coded(ErrorCode::UnknownName));
     };
     arm.via = via.unwrap_or_default();
     Ok(Some(arm))

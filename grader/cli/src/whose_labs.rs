@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use kinemark_course::course_file::COURSE_FILE;
 
 use crate::disk::real;
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::labs_folder::{is_labs, relative};
 use crate::output;
@@ -62,7 +63,7 @@ impl Found {
                         "the {what} `{shown}` may be part of what was handed in: it lies in the folder of {whose}"
                     ),
                     help,
-                ));
+                ).coded(ErrorCode::HandedIn));
             }
             if let Some(outer) = self.outer(path) {
                 let here = real(Path::new("."));
@@ -72,7 +73,7 @@ impl Found {
                         "the {what} `{shown}` may be part of what was handed in: above it there is `{outer}`"
                     ),
                     help,
-                ));
+                ).coded(ErrorCode::HandedIn));
             }
         }
         Ok(())

@@ -3,14 +3,20 @@
 use kinemark_sim::text::number::{metres, seconds};
 use owo_colors::OwoColorize as _;
 
+use super::text::Detail;
 use super::visible::visible;
-use kinemark_grader::record::comparison::{Comparison, MotionComparison, Pair, SideRecord};
+use kinemark_grader::record::comparison::{
+    CheckComparison, Comparison, MotionComparison, Pair, SideRecord,
+};
 use kinemark_grader::record::comparison::{JOINT_TOLERANCE_RAD, POSITION_TOLERANCE_M};
 use kinemark_grader::record::grade::Outcome;
 use kinemark_grader::record::quantity::{difference_of_points, points};
 
-/// Renders a comparison.
-pub fn text(comparison: &Comparison) -> String {
+/// Renders a comparison: its total alone, with the checks that earn all their points in both folded, or everything.
+pub fn text(comparison: &Comparison, detail: Detail) -> String {
+    if detail == Detail::Total {
+        return total(comparison) + "\n";
+    }
     let mut lines = vec![visible(&comparison.lab).bold().to_string()];
     for (letter, side) in [("A", &comparison.a), ("B", &comparison.b)] {
         lines.push(side_line(letter, side));
@@ -29,7 +35,12 @@ pub fn text(comparison: &Comparison) -> String {
             row(&name, width, &task.points, judged),
             visible(&task.title)
         ));
-        for check in &task.checks {
+        let is_folded = |check: &&CheckComparison| {
+            detail == Detail::Folded
+                && [check.outcome_a, check.outcome_b] == [Outcome::Full; 2]
+                && check.points.difference == 0.0
+        };
+        for check in task.checks.iter().filter(|check| !is_folded(check)) {
             let name = format!("  {}", visible(&check.name));
             let outcomes = [check.outcome_a, check.outcome_b];
             lines.push(format!(
@@ -38,22 +49,35 @@ pub fn text(comparison: &Comparison) -> String {
                 visible(&check.title)
             ));
         }
+        match task.checks.iter().filter(is_folded).count() {
+            0 => {}
+            1 => lines.push("  1 check has all its points in both".dimmed().to_string()),
+            full => {
+                let words = format!("  {full} checks have all their points in both");
+                lines.push(words.dimmed().to_string());
+            }
+        }
         for (letter, ended) in [("A", &task.ended_a), ("B", &task.ended_b)] {
             let words = ended.as_ref().map(|ended| ended.words(letter));
             lines.extend(words.map(|words| format!("  {}", visible(&words).yellow())));
         }
         lines.extend(task.motion.as_ref().map(motion));
     }
-    let total = difference_of_points(comparison.a.points, comparison.b.points);
     lines.push(String::new());
-    lines.push(format!(
-        "{} in A, {} in B: {}",
-        points(comparison.a.points).bold(),
-        points(comparison.b.points).bold(),
-        change(total)
-    ));
+    lines.push(total(comparison));
     let text: Vec<&str> = lines.iter().map(|line| line.trim_end()).collect();
     text.join("\n") + "\n"
+}
+
+/// The points of both, in a line.
+fn total(comparison: &Comparison) -> String {
+    let [a, b] = [comparison.a.points, comparison.b.points];
+    format!(
+        "{} in A, {} in B: {}",
+        points(a).bold(),
+        points(b).bold(),
+        change(difference_of_points(a, b))
+    )
 }
 
 fn side_line(letter: &str, side: &SideRecord) -> String {

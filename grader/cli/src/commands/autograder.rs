@@ -21,6 +21,7 @@ use kinemark_report::visible::visible;
 use serde::Deserialize;
 
 use crate::disk::{self, Folder};
+use crate::error_record::ErrorCode;
 use crate::failure::{BROKEN, Failure, LOST};
 use crate::sandbox::SandboxArgs;
 use crate::worker::WorkerHost;
@@ -128,7 +129,8 @@ fn check(args: &Args) -> Result<ExitCode, Failure> {
                 grade.verdict.name()
             ),
             "give the autograder more memory and processor time in the assignment's settings",
-        ));
+        )
+        .coded(ErrorCode::Undecided));
     }
     output::print(&format!("ready to grade {}\n", args.lab))?;
     Ok(ExitCode::SUCCESS)
@@ -198,7 +200,7 @@ fn upload(args: &Args, submission: &Path) -> Result<GradescopeResults, NotGraded
             return Err(NotGraded::Failed(Failure::fault(
                 what,
                 "run the autograder again; if it stays, give it more memory and processor time in the assignment's settings",
-            )));
+            ).coded(ErrorCode::Undecided)));
         }
     }
     Ok(GradescopeResults::of(Upload {

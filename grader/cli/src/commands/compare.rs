@@ -12,12 +12,18 @@ use kinemark_grader::lab::Lab;
 use kinemark_grader::record::comparison::{self, Comparison};
 use kinemark_grader::record::grade::{Grade, TaskKind};
 use kinemark_grader::record::graded::GradedRun;
+use kinemark_grader::submission::host::InProcess;
+use kinemark_report::compare_text::text;
+use kinemark_report::text::Detail;
 use kinemark_report::visible::visible;
 
+use crate::commands::grade::DetailArgs;
 use crate::course_folder::{book_failure, grading_failure};
 use crate::disk::{self, plain};
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::fresh_folder::{self, Entry, FreshFolder};
+use crate::sandbox::RunArgs;
 use crate::worker::WorkerHost;
 use crate::{interrupt, output, report_folder};
 
@@ -38,8 +44,15 @@ pub(crate) struct Args {
     #[arg(long, short, value_name = "DIR", default_value = "kinemark-compare")]
     pub(crate) out: PathBuf,
     /// Print the comparison as JSON
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["verbose", "quiet"])]
     pub(crate) json: bool,
+    #[command(flatten)]
+    pub(crate) detail: DetailArgs,
+    /// Whose comparison it is: a name or an id for the page's head and title
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) label: Option<String>,
+    #[command(flatten)]
+    pub(crate) run: RunArgs,
 }
 
 /// The page.
@@ -64,11 +77,12 @@ struct Again {
 /// Compares, writes the folder, prints.
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     interrupt::listen();
+    args.run.sandbox.demand()?;
     refuse_foreign(&args.out)?;
     let (a, b) = (read(&args.a)?, read(&args.b)?);
     // before anything runs
     refuse_other_lab(args, &a, &b)?;
-    let (a, b) = (again(a, &args.a)?, again(b, &args.b)?);
+    let (a, b) = (again(args, a, &args.a)?, again(args, b, &args.b)?);
     let names = [&args.a, &args.b].map(|path| shown_name(path));
     let mut notes = changed(&a, "A");
     notes.extend(changed(&b, "B"));
@@ -88,16 +102,16 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     // neither loses the other: a full disk what is printed, an output that cannot be written the page
     let printed = match args.json {
         true => output::print_json(&comparison),
-        false => output::print_lines(&kinemark_report::compare_text::text(&comparison)),
+        false => output::print_lines(&text(&comparison, args.detail.detail())),
     };
-    if let Err(unwritten) = write(&args.out, &comparison, &a.graded, &b.graded) {
+    if let Err(unwritten) = write(args, &comparison, &a.graded, &b.graded) {
         if let Err(unprinted) = printed {
             unprinted.report_for_people();
         }
         return Err(unwritten);
     }
     printed?;
-    if !args.json {
+    if !args.json && args.detail.detail() != Detail::Total {
         let page = args.out.join(PAGE);
         output::print(&format!("comparison: {}\n", output::path(&page)))?;
     }
@@ -171,18 +185,21 @@ fn refuse_other_lab(args: &Args, a: &Graded, b: &Graded) -> Result<(), Failure> 
             args.b.display()
         ),
         "name two reports of the same lab",
-    ))
+    ).coded(ErrorCode::OtherLab))
 }
 
 /// Runs a report's submission again. Hidden cases do not take part: points are those of the record, and what is compared are the
 /// motions that everyone may see.
-fn again(of: Graded, folder: &Path) -> Result<Again, Failure> {
+fn again(args: &Args, of: Graded, folder: &Path) -> Result<Again, Failure> {
     let Graded {
         grade,
         lab,
         submission,
     } = of;
-    let graded = submission.grade(&lab, None, &mut WorkerHost::new(None));
+    let graded = match args.run.in_process {
+        true => submission.grade(&lab, None, &mut InProcess),
+        false => submission.grade(&lab, None, &mut WorkerHost::new(None)),
+    };
     let graded = graded.map_err(|_| Failure::interrupted())?;
     // what this machine did not do says nothing about either
     let mut undecided = graded
@@ -201,7 +218,8 @@ fn again(of: Graded, folder: &Path) -> Result<Again, Failure> {
                 visible(why)
             ),
             "compare again when this machine is less busy; nothing was written",
-        ));
+        )
+        .coded(ErrorCode::Undecided));
     }
     Ok(Again { grade, lab, graded })
 }
@@ -252,9 +270,15 @@ fn refuse_foreign(out: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-fn write(out: &Path, comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Result<(), Failure> {
+fn write(
+    args: &Args,
+    comparison: &Comparison,
+    a: &GradedRun,
+    b: &GradedRun,
+) -> Result<(), Failure> {
+    let out = &args.out;
     let record = output::json(comparison)?;
-    let page = kinemark_report::html::comparison(comparison, a, b);
+    let page = kinemark_report::html::comparison(comparison, a, b, args.label.as_deref());
     let written = FreshFolder::beside(out).and_then(|fresh| {
         fresh.write(PAGE, page.as_bytes())?;
         fresh.write(RECORD, record.as_bytes())?;
@@ -268,6 +292,6 @@ fn write(out: &Path, comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> R
                 plain(&error)
             ),
             "free some space or choose another folder with --out; the comparison above stands, and nothing half-written is left",
-        )
+        ).coded(ErrorCode::Unwritten)
     })
 }

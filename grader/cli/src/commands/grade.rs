@@ -29,7 +29,7 @@ use crate::failure::{self, FAULT, Failure, LOST};
 use crate::history::History;
 use crate::practice_variants::{PracticeVariants, try_variants};
 use crate::project::{Built, NoModule, Project};
-use crate::sandbox::SandboxArgs;
+use crate::sandbox::RunArgs;
 use crate::staff_folder::{self, STAFF, StaffArgs};
 use crate::worker::WorkerHost;
 use crate::{
@@ -69,10 +69,10 @@ pub(crate) struct Args {
     #[arg(long, short, value_name = "DIR")]
     pub(crate) out: Option<PathBuf>,
     /// Print the grade record as JSON
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["verbose", "quiet"])]
     pub(crate) json: bool,
     /// What to print: the grade for people, or a line for each thing that went wrong, as editors read it
-    #[arg(long, value_enum, default_value = "full", conflicts_with = "json")]
+    #[arg(long, value_enum, default_value = "full", conflicts_with_all = ["json", "verbose", "quiet"])]
     pub(crate) format: Format,
     #[command(flatten)]
     pub(crate) detail: DetailArgs,
@@ -97,11 +97,8 @@ pub(crate) struct Args {
     /// Grade on so many other variants as well, in practice: a number that is typed in shows there
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
     pub(crate) variants: Option<u32>,
-    /// Run the submission in this process: for profiling trusted code
-    #[arg(long, conflicts_with = "require_sandbox")]
-    pub(crate) in_process: bool,
     #[command(flatten)]
-    pub(crate) sandbox: SandboxArgs,
+    pub(crate) run: RunArgs,
     /// Overlay the reference solution's motion on the run, in the report and its logs: for course staff. Its joint motion is the
     /// answer; do not give such a report to students
     #[arg(long, conflicts_with = "practice", help_heading = STAFF)]
@@ -114,10 +111,10 @@ pub(crate) struct Args {
 #[derive(Debug, Clone, Copy, clap::Args)]
 pub(crate) struct DetailArgs {
     /// Print every check in full, and not only the first of each task that lost points
-    #[arg(long, short, conflicts_with_all = ["json", "format"])]
+    #[arg(long, short)]
     verbose: bool,
     /// Print only the line of the points
-    #[arg(long, short, conflicts_with_all = ["json", "format", "verbose"])]
+    #[arg(long, short, conflicts_with = "verbose")]
     quiet: bool,
 }
 
@@ -383,7 +380,7 @@ pub(crate) fn write(request: &Request<'_>, work: &Work) -> Result<(), Failure> {
 /// Reads what was named, and grades.
 pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
     let args = request.args;
-    args.sandbox.demand()?;
+    args.run.sandbox.demand()?;
     refuse_pixels_without_png(args)?;
     // nothing lies beside what is read from standard input
     let beside = (!named_submission::is_input(&request.submission)).then_some(&*request.submission);
@@ -415,8 +412,8 @@ pub(crate) fn work(request: &Request<'_>) -> Result<Work, Failure> {
     let submission = submission(request, &lab, staff.is_some())?;
 
     let mut in_process = InProcess;
-    let mut workers = WorkerHost::new((!args.in_process).then(|| progress(lab.tasks.len())));
-    let host: &mut dyn Host = if args.in_process {
+    let mut workers = WorkerHost::new((!args.run.in_process).then(|| progress(lab.tasks.len())));
+    let host: &mut dyn Host = if args.run.in_process {
         &mut in_process
     } else {
         &mut workers

@@ -10,6 +10,7 @@ use kinemark_grader::record::grade::TaskKind;
 use owo_colors::OwoColorize as _;
 use serde::Serialize;
 
+use crate::error_record::ErrorCode;
 use crate::failure::{self, Failure};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
@@ -105,7 +106,8 @@ fn tasks<'l>(lab: &'l Lab, name: Option<&str>) -> Result<Vec<&'l Task>, Failure>
             Err(Failure::usage(
                 format!("lab `{}` has no task `{name}`", lab.name),
                 &format!("its tasks: {}", known.join(", ")),
-            ))
+            )
+            .coded(ErrorCode::UnknownName))
         }
         _ => Ok(found),
     }

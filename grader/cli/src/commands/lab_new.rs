@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use crate::commands::lab_schema::SchemaKind;
 use crate::disk::Folder;
+use crate::error_record::ErrorCode;
 use crate::failure::{Failure, note_in_words};
 use crate::fresh_folder::FreshFolder;
 use crate::lab_from::{Changes, FilesOfFolder, Origin, copied};
@@ -104,7 +105,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             return Err(Failure::usage(
                 format!("`{}` already exists", folder.display()),
                 "choose another name: a lab that was begun is never replaced",
-            ));
+            )
+            .coded(ErrorCode::Exists));
         }
     }
     let mut written = Vec::new();
@@ -294,7 +296,8 @@ fn robot(files: &dyn Files, name: &str) -> Result<kinemark_sim::model::robot::Ro
         return Err(Failure::usage(
             format!("there is no robot file `{}`", robot_path(name)),
             &suggest(name, "robots", known.iter().map(String::as_str)),
-        ));
+        )
+        .coded(ErrorCode::UnknownName));
     };
     found
         .file

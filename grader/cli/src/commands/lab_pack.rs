@@ -18,6 +18,7 @@ use kinemark_grader::record::quantity::points;
 use serde::Serialize;
 
 use crate::disk::{self, Folder, plain};
+use crate::error_record::ErrorCode;
 use crate::failure::{self, BROKEN, Failure};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
@@ -125,7 +126,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         return Err(Failure::usage(
             format!("`{}` already exists", out.display()),
             "name another file with --out, or replace it with --force",
-        ));
+        )
+        .coded(ErrorCode::Exists));
     }
     let (files, labs_folder) = labs_folder::open(&args.labs_folder)?;
     let lab = Lab::load(

@@ -8,6 +8,7 @@ use kinemark_grader::lab::{Lab, Variant};
 use kinemark_sim::text::Dimension;
 use serde::Serialize;
 
+use crate::error_record::ErrorCode;
 use crate::failure::{self, Failure};
 use crate::labs_folder::{self, LabsFolderArgs};
 use crate::staff_folder::{self, StaffPart};
@@ -73,7 +74,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             return Err(Failure::usage(
                 format!("`{}` already exists", path.display()),
                 "name another file, or replace it with --force",
-            ));
+            )
+            .coded(ErrorCode::Exists));
         }
         let help = "choose another path with --out";
         output::write_file(path, variant.text().as_bytes(), help)?;

@@ -14,6 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::beneath::{self, Unread};
 use crate::disk::{self, plain};
+use crate::error_record::ErrorCode;
 use crate::failure::{self, Failure};
 use crate::fresh_folder::{self, Entry, FreshFolder};
 use crate::{output, report_folder};
@@ -231,6 +232,7 @@ fn unwritten(out: &Path, error: &std::io::Error) -> Failure {
         ),
         "free some space or choose another folder with --out; nothing half-written is left",
     )
+    .coded(ErrorCode::Unwritten)
 }
 
 /// What a log holds, where the path is one.
@@ -246,7 +248,8 @@ fn read(path: &Path) -> Result<Vec<u8>, Failure> {
         return Err(Failure::usage(
             format!("there is no file `{shown}`"),
             "`kinemark grade` writes one per motion task, such as out/TASK/run.mcap",
-        ));
+        )
+        .coded(ErrorCode::NoFile));
     }
     let bytes = match report_folder::enclosing(path) {
         Some((report, inside)) => beneath::bytes(&report, &inside, MOST_LOG_BYTES),

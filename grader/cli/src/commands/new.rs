@@ -11,6 +11,7 @@ use kinemark_report::visible::visible;
 use serde::Serialize;
 
 use crate::chosen_variant::{self, Chosen, LabArgs};
+use crate::error_record::ErrorCode;
 use crate::failure::{BROKEN, Failure};
 use crate::unfinished::UnfinishedFolder;
 use crate::{interrupt, output};
@@ -80,7 +81,8 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         return Err(Failure::usage(
             format!("`{}` already exists", there.display()),
             "name another folder, or move your work away first: nothing is overwritten",
-        ));
+        )
+        .coded(ErrorCode::Exists));
     }
     put_in_place(&dir, &written)?;
     let paths: Vec<PathBuf> = written.into_iter().map(|(path, _)| path).collect();

@@ -7,6 +7,7 @@ use kinemark_sim::format::detect;
 use kinemark_sim::text::Source;
 use kinemark_toolbox::robot_convert::{Converted, converted};
 
+use crate::error_record::ErrorCode;
 use crate::failure::{self, Failure};
 use crate::output;
 use crate::robot_source::{self, RobotArgs};
@@ -101,7 +102,8 @@ fn refuse_taken(out: &Path, force: bool) -> Result<(), Failure> {
             } else {
                 "name another file"
             },
-        ));
+        )
+        .coded(ErrorCode::Exists));
     }
     Ok(())
 }

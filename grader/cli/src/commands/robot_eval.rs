@@ -9,6 +9,7 @@ use kinemark_toolbox::eval::{Code, Refusal, Subject, answer_line, operation_name
 use serde_json::{Map, Value};
 
 use crate::failure::{Failure, LOST};
+use crate::output::JSON_FORMAT;
 use crate::robot_source::{self, RobotArgs};
 use crate::{disk, failure, scene_source};
 
@@ -21,6 +22,9 @@ pub(crate) struct Args {
     /// The scene around the robot in `simulate`: a scene file, or the name of a scene of the labs
     #[arg(long, value_name = "SCENE")]
     pub(crate) scene: Option<PathBuf>,
+    /// Answer in the form of every other `--json`: each line has a `format`, and errors a `help` and a `span`
+    #[arg(long)]
+    pub(crate) json: bool,
 }
 
 fn after_help() -> String {
@@ -67,6 +71,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
             }),
         };
         some_refused |= answer.contains_key("error");
+        let answer = match args.json {
+            true => in_envelope(answer),
+            false => answer,
+        };
         match write_line(&mut output, answer) {
             Ok(()) => {}
             Err(error) if error.kind() == ErrorKind::BrokenPipe => break,
@@ -74,6 +82,20 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         }
     }
     Ok(ExitCode::from(if some_refused { LOST } else { 0 }))
+}
+
+/// The answer in the form of what `--json` prints elsewhere: the number of the format first, and an error with all its fields.
+fn in_envelope(mut answer: Map<String, Value>) -> Map<String, Value> {
+    if let Some(Value::Object(error)) = answer.get_mut("error") {
+        if let Some(Value::String(code)) = error.get_mut("code") {
+            *code = format!("eval::{}", code.replace('-', "_"));
+        }
+        for absent in ["help", "span"] {
+            error.entry(absent).or_insert(Value::Null);
+        }
+    }
+    answer.insert("format".to_owned(), JSON_FORMAT.into());
+    answer
 }
 
 /// The answer to the request with this number: one that is no JSON has no `id` to be found by.

@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use kinemark_course::course_file::COURSE_FILE;
 
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::serve::{self, ServeArgs, ServedBook, Server};
 use crate::unfinished::is_there_or_restored;
@@ -37,20 +38,23 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         return Err(Failure::usage(
             format!("there is no folder `{shown}`"),
             "name the folder that `kinemark grade` wrote",
-        ));
+        )
+        .coded(ErrorCode::NoFile));
     }
     let book = ServedBook::find(&args.folder);
     if book.is_none() && args.folder.join(COURSE_FILE).is_file() {
         return Err(Failure::broken(
             format!("the course in `{shown}` has no book yet"),
             "`kinemark course grade` writes it",
-        ));
+        )
+        .coded(ErrorCode::NoBook));
     }
     if book.is_none() && !serve::index::has_reports(&args.folder) {
         return Err(Failure::broken(
             format!("`{shown}` contains no report, and neither do the folders in it"),
             "name the folder that `kinemark grade` wrote, or a folder of several",
-        ));
+        )
+        .coded(ErrorCode::NoReport));
     }
     let (stop, stopped) = tokio::sync::watch::channel(false);
     interrupt::listen_and(move || {

@@ -25,6 +25,7 @@ use super::files::{OpenFile, Unread};
 use super::token::Token;
 use super::{files, guard, index, page};
 use crate::disk::plain;
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 
 /// How much of a file is read at once.
@@ -72,11 +73,13 @@ impl Server {
             ErrorKind::AddrInUse => Failure::usage(
                 format!("port {} is taken", asked.port()),
                 "choose another port, or leave --port out to use a free one",
-            ),
+            )
+            .coded(ErrorCode::Port),
             ErrorKind::PermissionDenied => Failure::usage(
                 format!("port {} needs rights that you do not have", asked.port()),
                 "choose one from 1024 on, or leave --port out to use a free one",
-            ),
+            )
+            .coded(ErrorCode::Port),
             _ => unserved(&error),
         })?;
         let port = listener

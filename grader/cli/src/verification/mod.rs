@@ -18,6 +18,7 @@ pub(crate) use findings::Outcome;
 use findings::{Difference, Findings, Subject};
 use lab::ComparedLab;
 
+use crate::error_record::ErrorCode;
 use crate::failure::Failure;
 use crate::report_folder::Report;
 use crate::worker::WorkerHost;
@@ -155,5 +156,6 @@ fn refuse_undecided(recorded: &Grade, now: &Grade) -> Result<(), Failure> {
             visible(why)
         ),
         "verify again when this machine is less busy; nothing is known about the report",
-    ))
+    )
+    .coded(ErrorCode::Undecided))
 }

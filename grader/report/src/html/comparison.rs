@@ -19,8 +19,14 @@ use kinemark_grader::record::grade::Outcome;
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::record::quantity::points;
 
-/// The page of a comparison of `a` and `b`, whose runs were made again. The same two give the same bytes.
-pub fn comparison(comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> String {
+/// The page of a comparison of `a` and `b`, whose runs were made again; `label` says whose it is. The same two give the same bytes.
+pub fn comparison(
+    comparison: &Comparison,
+    a: &GradedRun,
+    b: &GradedRun,
+    label: Option<&str>,
+) -> String {
+    let label = label.filter(|label| !label.trim().is_empty());
     let replays: Vec<(usize, String)> = comparison
         .tasks
         .iter()
@@ -29,7 +35,8 @@ pub fn comparison(comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Stri
         .collect();
     let shows = !replays.is_empty();
     let title = format!(
-        "{}: {} and {} compared",
+        "{}{}: {} and {} compared",
+        label.map_or_else(String::new, |label| format!("{}, ", visible(label))),
         visible(&comparison.lab),
         visible(&comparison.a.name),
         visible(&comparison.b.name)
@@ -48,7 +55,7 @@ pub fn comparison(comparison: &Comparison, a: &GradedRun, b: &GradedRun) -> Stri
             }
             body {
                 a class="skip" href="#scores" { "Skip to the scores" }
-                (head(comparison, title_of(a)))
+                (head(comparison, title_of(a), label))
                 main {
                     (scores(comparison))
                     @for (i, task) in comparison.tasks.iter().enumerate() {
@@ -81,11 +88,12 @@ fn replay(task: &TaskComparison, a: &GradedRun, b: &GradedRun) -> Option<String>
 }
 
 /// The head: both submissions with what they earned.
-fn head(comparison: &Comparison, title: &str) -> Markup {
+fn head(comparison: &Comparison, title: &str, label: Option<&str>) -> Markup {
     html! {
         header class="head" {
             p class="eyebrow" { "Kinemark comparison" }
             h1 { (foreign(title)) }
+            @if let Some(label) = label { p class="whose" { (foreign(label)) } }
             p class="by" { (foreign(&comparison.lab)) " · two submissions" }
             div class="first" { (side("A", &comparison.a)) (side("B", &comparison.b)) }
             p class="mode" { "B is shown translucent beside A. A difference is B's points above A's." }
