@@ -12,6 +12,17 @@ use super::messages::Messages;
 use super::names::fields;
 use crate::visible::visible;
 
+/// A line of a log to be.
+struct Line<'a> {
+    ns: u64,
+    level: Level,
+    message: Cow<'a, str>,
+    /// Who says it.
+    name: &'a str,
+    /// The line of the submission that printed it.
+    source_line: Option<usize>,
+}
+
 impl Messages<'_> {
     /// What the submission drew, all values of a tick in one message.
     pub(super) fn plots(&mut self) -> Result<(), LogError> {
@@ -81,7 +92,7 @@ impl Messages<'_> {
     pub(super) fn lines(&mut self) -> Result<(), LogError> {
         let run = self.run;
         let topic = self.known_topic::<Log>("/log")?;
-        let mut lines: Vec<(u64, Level, Cow<'_, str>, &str, Option<usize>)> = Vec::new();
+        let mut lines: Vec<Line<'_>> = Vec::new();
         let names = run.names();
         for event in &run.trace.events {
             let level = match event.kind {
@@ -93,7 +104,13 @@ impl Messages<'_> {
                 _ => Level::Info,
             };
             let message = names.event(&event.kind);
-            lines.push((self.ns(event.tick), level, message.into(), "run", None));
+            lines.push(Line {
+                ns: self.ns(event.tick),
+                level,
+                message: message.into(),
+                name: "run",
+                source_line: None,
+            });
         }
         for contact in &run.trace.contacts {
             let [first, second] = contact.parties.map(|party| names.party(party));
@@ -104,16 +121,22 @@ impl Messages<'_> {
                 contact.impulse_n_s
             );
             let ns = self.ns(contact.first_tick);
-            lines.push((ns, Level::Info, message.into(), "contact", None));
+            lines.push(Line {
+                ns,
+                level: Level::Info,
+                message: message.into(),
+                name: "contact",
+                source_line: None,
+            });
         }
         for line in &run.trace.log {
-            lines.push((
-                self.ns(line.tick),
-                Level::Info,
-                line.text.as_str().into(),
-                "submission",
-                line.line,
-            ));
+            lines.push(Line {
+                ns: self.ns(line.tick),
+                level: Level::Info,
+                message: line.text.as_str().into(),
+                name: "submission",
+                source_line: line.line,
+            });
         }
         for curve in &run.curves {
             for (t_s, text) in curve
@@ -121,11 +144,23 @@ impl Messages<'_> {
                 .iter()
                 .filter(|(t_s, _)| t_s.is_finite() && *t_s >= 0.0)
             {
-                let ns = (t_s * 1e9).round() as u64;
-                lines.push((ns, Level::Info, text.as_str().into(), &curve.check, None));
+                lines.push(Line {
+                    ns: (t_s * 1e9).round() as u64,
+                    level: Level::Info,
+                    message: text.as_str().into(),
+                    name: &curve.check,
+                    source_line: None,
+                });
             }
         }
-        for (ns, level, message, name, source_line) in lines {
+        for Line {
+            ns,
+            level,
+            message,
+            name,
+            source_line,
+        } in lines
+        {
             let line = Log {
                 timestamp: Some(time(ns)),
                 level: level as i32,
