@@ -119,6 +119,7 @@ step_format() {
   # declared by a macro, which cargo fmt does not look into
   rustfmt --edition 2024 --check grader/src/check/kind/*.rs sim/src/sensor/kind/*.rs sim/src/format/*/mod.rs
   cargo fmt --manifest-path tests/fuzz/Cargo.toml -- --check
+  cargo fmt --manifest-path grader/python/Cargo.toml --all -- --check
 }
 
 step_paths() { # a path of somebody's machine in the tree

@@ -29,6 +29,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     for package in locked(&std::fs::read_to_string(lock)?)? {
         add(&mut hasher, &package);
     }
+    let runtime = here.join("python/runtime.wasm.zst");
+    println!("cargo::rerun-if-changed={}", runtime.display());
+    hasher.update(blake3::hash(&std::fs::read(runtime)?).as_bytes());
     let digest = hasher.finalize().to_hex();
     println!("cargo::rustc-env=KINEMARK_ENGINE_DIGEST={}", &digest[..16]);
     let summaries = kind_summaries(&here.join("src/check/kind"))?;

@@ -50,6 +50,7 @@ fn crates_depend_on_each_other_as_drawn() {
         "kinemark-course -> kinemark-grader",
         "kinemark-course -> kinemark-report",
         "kinemark-course -> kinemark-sim",
+        "kinemark-grader -> kinemark-python-wire",
         "kinemark-grader -> kinemark-sim",
         "kinemark-toolbox -> kinemark-sim",
         "kinemark-report -> kinemark-grader",

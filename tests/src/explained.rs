@@ -20,7 +20,7 @@ use serde_json::Value as Json;
 use crate::every_case::every_case;
 use crate::exact::is_asked_for;
 use crate::golden::are_current;
-use crate::submissions::{all_submissions, labs_with_staff};
+use crate::submissions::{all_submissions, labs_with_staff, submission_in};
 use crate::testbed::{grade, lab as lab_of, root, staff};
 use crate::variants::{SOLUTION, bed};
 
@@ -56,8 +56,8 @@ fn sample() -> &'static BTreeMap<String, Explanation> {
             .map(|(name, case)| (name.clone(), (name, case)))
             .collect();
         every_case(&cases, |(name, (lab, staff, folder))| {
-            let text = std::fs::read_to_string(folder.join("submission.rhai"));
-            let explained = explained(lab, staff, &text.expect("a submission"));
+            let (file, text) = submission_in(folder);
+            let explained = explained(lab, staff, file, &text);
             let mut sampled = sampled.lock().expect("no test panics with it");
             sampled.insert(name.clone(), explained);
         });
@@ -78,16 +78,16 @@ fn exposed_draws_make_the_grade() {
         .map(|(name, case)| (name.clone(), (name, case)))
         .collect();
     every_case(&cases, |(name, (lab, staff, folder))| {
-        let text = std::fs::read_to_string(folder.join("submission.rhai")).expect("a submission");
+        let (file, text) = submission_in(folder);
         let made;
         let explained = match sample().get(name) {
             Some(explained) => explained,
             None => {
-                made = explained(lab, staff, &text);
+                made = explained(lab, staff, file, &text);
                 &made
             }
         };
-        let graded = grade(lab, Some(staff), "submission.rhai", &text).grade;
+        let graded = grade(lab, Some(staff), file, &text).grade;
         assert_eq!(explained.graded.grade, graded);
         for record in graded.tasks.iter().filter(|task| !task.hidden.is_empty()) {
             let mut tasks = explained.tasks.iter();
@@ -97,8 +97,8 @@ fn exposed_draws_make_the_grade() {
     });
 }
 
-fn explained(lab: &Lab, staff: &Staff, text: &str) -> Explanation {
-    let submission = Source::new("submission.rhai", text);
+fn explained(lab: &Lab, staff: &Staff, file: &str, text: &str) -> Explanation {
+    let submission = Source::new(file, text);
     explain(lab, staff, &submission.into(), &mut InProcess).expect("not interrupted")
 }
 
@@ -150,8 +150,8 @@ fn plain(text: &str) -> String {
 
 fn explained_submission(lab: &Lab, staff: &Staff, name: &str) -> Explanation {
     let path = root().join("tests/submissions").join(&lab.name).join(name);
-    let text = std::fs::read_to_string(path.join("submission.rhai")).expect("a submission");
-    explained(lab, staff, &text)
+    let (file, text) = submission_in(&path);
+    explained(lab, staff, file, &text)
 }
 
 #[test]
@@ -352,7 +352,7 @@ fn a_stop_is_explained_as_what_it_is() {
     let lab = lab_of("01-kinematics");
     let staff = staff(&lab, None);
     let of = |text: &str| {
-        let explained = explained(&lab, &staff, text);
+        let explained = explained(&lab, &staff, "submission.rhai", text);
         (plain(&self::text(&explained)), paragraph(&explained))
     };
     let (for_staff, reply) = of("fn forward_kinematics(r, q) { [1, 2 }");

@@ -69,6 +69,7 @@ mod path_checks;
 mod pictures;
 mod prescribed_lab;
 mod projects;
+mod python;
 mod reference_bands;
 mod report;
 mod report_links;

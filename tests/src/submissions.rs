@@ -1,4 +1,4 @@
-//! Graded submissions get the verdicts they must get: `tests/submissions/LAB/CASE/{submission.rhai, expect.toml}`.
+//! Graded submissions get the verdicts they must get: `tests/submissions/LAB/CASE/{submission.rhai or submission.py, expect.toml}`.
 
 use std::path::{Path, PathBuf};
 
@@ -65,6 +65,15 @@ pub(crate) fn all_submissions(labs: &[(Lab, Staff)]) -> Vec<(String, Submission<
 /// A lab, the course staff's part of it, and the folder of a submission.
 pub(crate) type Submission<'l> = (&'l Lab, &'l Staff, PathBuf);
 
+/// The file of a submission, by its name and its text.
+pub(crate) fn submission_in(folder: &Path) -> (&'static str, String) {
+    let mut names = ["submission.py", "submission.rhai"].into_iter();
+    let file = names.find(|name| folder.join(name).is_file());
+    let file = file.unwrap_or_else(|| panic!("no submission in {}", folder.display()));
+    let text = std::fs::read_to_string(folder.join(file)).expect("text");
+    (file, text)
+}
+
 fn gets_its_verdict(lab: &Lab, staff: &Staff, folder: &Path) {
     let read = |file: &str| {
         let path = folder.join(file);
@@ -72,11 +81,11 @@ fn gets_its_verdict(lab: &Lab, staff: &Staff, folder: &Path) {
     };
     let expect: Table = read("expect.toml").parse().expect("expect.toml");
     knows(&expect, &["verdict", "tasks"]);
-    let submission = read("submission.rhai");
-    let graded = grade(lab, Some(staff), "submission.rhai", &submission).grade;
+    let (file, submission) = submission_in(folder);
+    let graded = grade(lab, Some(staff), file, &submission).grade;
     assert_eq!(contradictions(&graded), [], "{}", shown(&graded));
     // what `kinemark verify` compares without the course staff's part
-    let practice = grade(lab, None, "submission.rhai", &submission).grade;
+    let practice = grade(lab, None, file, &submission).grade;
     assert_eq!(contradictions(&practice), [], "{}", shown(&practice));
     let hidden = visible_part::contradictions(&graded, &practice);
     assert_eq!(hidden, [], "{}", shown(&graded));

@@ -12,7 +12,7 @@ use kinemark_course::language::{CARGO_OUTPUT, CARGO_TARGET, Language, MODULE_FIL
 use kinemark_course::module_sources::{self, SourceFile};
 use kinemark_course::selection::MOST_SUBMISSION_BYTES;
 use kinemark_course::tree::{Limits, Tree};
-use kinemark_course::working_folder::{FOLDER_FILE, SUBMISSION_FILE};
+use kinemark_course::working_folder::{FOLDER_FILE, PYTHON_FILE, SUBMISSION_FILE};
 
 use crate::disk::plain;
 use crate::error_record::ErrorCode;
@@ -102,7 +102,7 @@ impl Project {
         let mut names = entries.flatten().map(|entry| entry.file_name());
         let is_other = |name: std::ffi::OsString| {
             let name = name.to_string_lossy().to_lowercase();
-            [".rhai", ".kinemark", ".zip"]
+            [".rhai", ".py", ".kinemark", ".zip"]
                 .iter()
                 .any(|ending| name.ends_with(ending))
         };
@@ -504,14 +504,31 @@ fn above_cargo(folder: &Path) -> Option<PathBuf> {
     })
 }
 
-/// The submission of the folder in which a command runs, or of one in it: the script, or the module of a project.
+/// The submission of the folder in which a command runs, or of one in it: the script, the file in Python, or the module of a project.
 ///
 /// # Errors
-/// Exit code 2 where there are both: nobody can say which one counts.
+/// Exit code 2 where there are two: nobody can say which one counts.
 pub(crate) fn submission_of_folder(folder: &Path) -> Result<Option<PathBuf>, Failure> {
-    let script = folder.join(SUBMISSION_FILE);
+    let (rhai, python) = (folder.join(SUBMISSION_FILE), folder.join(PYTHON_FILE));
+    let is_there = |path: &Path| path.symlink_metadata().is_ok();
+    let script = match (is_there(&rhai), is_there(&python)) {
+        (true, true) => {
+            return Err(Failure::usage(
+                format!(
+                    "both `{}` and `{}` are there, and only one of them can be graded",
+                    output::path(&rhai),
+                    output::path(&python)
+                ),
+                &format!(
+                    "name the one that counts, such as `kinemark grade LAB {PYTHON_FILE}`, or remove the other"
+                ),
+            ));
+        }
+        (false, true) => python,
+        _ => rhai,
+    };
     let project = Project::at(folder);
-    let has_script = script.symlink_metadata().is_ok();
+    let has_script = is_there(&script);
     match project {
         Some(project) if has_script && project.is_built() => Err(Failure::usage(
             format!(

@@ -15,7 +15,8 @@ use kinemark_grader::task::files::Files as _;
 use kinemark_grader::task::problem::LoadError;
 use kinemark_report::output::{
     self, LAB_FOLDER, LOG_FILE, MANIFEST_FILE, MODULE_FILE, Manifest, Material, OutFile,
-    OutputError, Pixels, RECORD_FILE, ReportRequest, SOURCES_FOLDER, SUBMISSION_FILE, Sources,
+    OutputError, PYTHON_FILE, Pixels, RECORD_FILE, ReportRequest, SOURCES_FOLDER, SUBMISSION_FILE,
+    Sources,
 };
 use kinemark_report::visible::visible;
 use kinemark_sim::text::Source;
@@ -113,6 +114,7 @@ pub(crate) fn copy_name(submission: &SubmissionSource) -> &'static str {
     match submission.submission.program() {
         Program::Module(_) => MODULE_FILE,
         Program::Script(_) => SUBMISSION_FILE,
+        Program::Python(_) => PYTHON_FILE,
     }
 }
 
@@ -196,12 +198,9 @@ pub(crate) fn read(folder: &Path) -> Result<Report, Failure> {
     let grade = record(folder)?;
     there(MANIFEST_FILE)?;
     let manifest = manifest(folder)?;
-    let is_module = manifest.lists(MODULE_FILE);
-    let copy = if is_module {
-        MODULE_FILE
-    } else {
-        SUBMISSION_FILE
-    };
+    let mut copies = [MODULE_FILE, PYTHON_FILE].into_iter();
+    let copy = copies.find(|copy| manifest.lists(copy));
+    let copy = copy.unwrap_or(SUBMISSION_FILE);
     there(copy)?;
     there(LAB_FOLDER)?;
     let submission = beneath::bytes(folder, copy, MOST_BYTES);

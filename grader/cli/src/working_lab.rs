@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use kinemark_course::selection::MOST_SUBMISSION_BYTES;
-use kinemark_course::working_folder::{FOLDER_FILE, FolderFile, SUBMISSION_FILE};
+use kinemark_course::working_folder::{FOLDER_FILE, FolderFile, PYTHON_FILE, SUBMISSION_FILE};
 use kinemark_grader::lab::Variant;
 use kinemark_grader::lab::variant::VARIANT_FILE;
 use kinemark_grader::task::files::Files;
@@ -60,7 +60,7 @@ pub(crate) fn lab_and_submission(
 }
 
 fn is_program(word: &str) -> bool {
-    let endings = [".rhai", ".wasm", ".txt"];
+    let endings = [".rhai", ".py", ".wasm", ".txt"];
     word == "-" || endings.iter().any(|ending| word.ends_with(ending))
 }
 
@@ -107,8 +107,10 @@ fn folder_file(submission: &Path) -> Result<Option<FolderFile>, Failure> {
 pub(crate) fn submission(lab: Option<&str>) -> Result<PathBuf, Failure> {
     let here = project::submission_of_folder(Path::new(""))?;
     let script = Path::new(SUBMISSION_FILE);
+    let texts = [script, Path::new(PYTHON_FILE)];
     // any folder may have a Cargo.toml, and only that of a lab is one of ours
-    let is_ours = |path: &PathBuf| path == script || Path::new(FOLDER_FILE).is_file();
+    let is_ours =
+        |path: &PathBuf| texts.contains(&path.as_path()) || Path::new(FOLDER_FILE).is_file();
     if let Some(here) = here.as_ref().filter(|path| is_ours(path)) {
         return Ok(here.clone());
     }

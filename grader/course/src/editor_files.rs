@@ -23,6 +23,12 @@ const OF_SCRIPTS: [(&str, &str); 3] = [
     ),
 ];
 
+/// What only Python needs: the types of what Kinemark gives, which editors and type checkers read, and the page for people.
+const OF_PYTHON: [(&str, &str); 2] = [
+    ("kinemark.pyi", include_str!("editor/kinemark.pyi")),
+    ("python.md", include_str!("../../../docs/python.md")),
+];
+
 /// The files by their path in the folder of a submission in `language`.
 pub(crate) fn editor_files(language: Language) -> Vec<(String, String)> {
     let (path, tasks) = TASKS;
@@ -30,6 +36,10 @@ pub(crate) fn editor_files(language: Language) -> Vec<(String, String)> {
     if language.build().is_some() {
         let building = tasks.replace(r#"["grade", "#, r#"["grade", "--build", "#);
         return vec![(path.to_owned(), building)];
+    }
+    if language == Language::Python {
+        let [types, page] = OF_PYTHON;
+        return [TASKS, types, page].map(own).to_vec();
     }
     let [extensions, definitions, page] = OF_SCRIPTS;
     [extensions, TASKS, definitions, page].map(own).to_vec()

@@ -91,8 +91,8 @@ pub fn grade(
     }
     if pages {
         // before the record: a record that is there has its page
-        let is_script = matches!(source.program(), Program::Script(_));
-        let script = is_script.then_some(submission.bytes.as_slice());
+        let is_module = matches!(source.program(), Program::Module(_));
+        let script = (!is_module).then_some(submission.bytes.as_slice());
         book.put_page(&key, &graded, script)?;
         book.put_page_sources(&graded.grade.lab.name, &key, &submission.sources)?;
     }

@@ -35,6 +35,7 @@ const ANY_FORMAT: &str = "kinemark-hand-in/";
 const STATEMENT: &str = "hand-in.json";
 const PRACTICE: &str = "practice.json";
 const SCRIPT: &str = "submission.rhai";
+const PYTHON: &str = "submission.py";
 const PLUGIN: &str = "submission.wasm";
 /// What the names of sources begin with.
 const SOURCES: &str = "sources/";
@@ -327,8 +328,11 @@ fn shown_name(path: &str) -> String {
 
 /// The submission's entry, by how the name of its file ends: names of students are no paths of ours.
 fn entry_of(file: &str) -> &'static str {
-    if file.to_ascii_lowercase().ends_with(".wasm") {
+    let file = file.to_ascii_lowercase();
+    if file.ends_with(".wasm") {
         PLUGIN
+    } else if file.ends_with(".py") {
+        PYTHON
     } else {
         SCRIPT
     }
@@ -384,7 +388,7 @@ fn entries(
     // a name twice is one entry to the reader, and two to the directory's end
     let count = 3 + sources.len();
     let is_whole = archive.len() == count && listed_entries(bytes).map(usize::from) == Some(count);
-    let script = [SCRIPT, PLUGIN].into_iter().find(|name| has(name));
+    let script = [SCRIPT, PYTHON, PLUGIN].into_iter().find(|name| has(name));
     match script {
         Some(script)
             if is_whole

@@ -5,6 +5,8 @@
 pub enum Language {
     /// A script, which is graded as it is.
     Rhai,
+    /// A file in Python, which is graded as it is.
+    Python,
     /// Rust, compiled with the crate `kinemark-plugin`.
     Rust,
     /// C, compiled with `kinemark.h`.
@@ -45,12 +47,13 @@ const BUILD_RUST: &[&str] = &[
 
 impl Language {
     /// All of them, scripts first.
-    pub const ALL: [Self; 3] = [Self::Rhai, Self::Rust, Self::C];
+    pub const ALL: [Self; 4] = [Self::Rhai, Self::Python, Self::Rust, Self::C];
 
     /// Its name for people.
     pub fn name(self) -> &'static str {
         match self {
             Self::Rhai => "Rhai",
+            Self::Python => "Python",
             Self::Rust => "Rust",
             Self::C => "C",
         }
@@ -60,6 +63,7 @@ impl Language {
     pub fn starter(self) -> &'static str {
         match self {
             Self::Rhai => "starter.rhai",
+            Self::Python => "starter.py",
             Self::Rust => "starter.rs",
             Self::C => "starter.c",
         }
@@ -69,24 +73,25 @@ impl Language {
     pub fn source(self) -> &'static str {
         match self {
             Self::Rhai => "submission.rhai",
+            Self::Python => "submission.py",
             Self::Rust => "src/lib.rs",
             Self::C => "submission.c",
         }
     }
 
-    /// The file by which a folder is known as a project of this language; none for a script, which is no project.
+    /// The file by which a folder is known as a project of this language; none for what is graded as it is, which is no project.
     pub fn project_file(self) -> Option<&'static str> {
         match self {
-            Self::Rhai => None,
+            Self::Rhai | Self::Python => None,
             Self::Rust => Some("Cargo.toml"),
             Self::C => Some(self.source()),
         }
     }
 
-    /// The program that builds a project of this language and its arguments, run in the project's folder; none for a script.
+    /// The program that builds a project of this language and its arguments, run in the project's folder; none for what is graded as it is.
     pub fn build(self) -> Option<&'static [&'static str]> {
         match self {
-            Self::Rhai => None,
+            Self::Rhai | Self::Python => None,
             Self::Rust => Some(BUILD_RUST),
             Self::C => Some(BUILD_C),
         }
@@ -101,6 +106,7 @@ impl Language {
     pub fn defines(self, source: &str, name: &str) -> bool {
         let head = match self {
             Self::Rhai | Self::Rust => format!("fn {name}"),
+            Self::Python => format!("def {name}"),
             Self::C => format!("km_{name}"),
         };
         let mut rest = source.split(&head).skip(1);
@@ -110,7 +116,7 @@ impl Language {
     /// How to get the program that builds it; none for a script.
     pub fn toolchain(self) -> Option<&'static str> {
         match self {
-            Self::Rhai => None,
+            Self::Rhai | Self::Python => None,
             Self::Rust => Some(
                 "install Rust from https://rustup.rs, then run `rustup target add wasm32-unknown-unknown` once",
             ),
@@ -133,6 +139,9 @@ mod tests {
         assert!(!Language::C.defines(c, "jacob"));
         let rust = "fn control_all() {}\n    fn control(&mut self) {}";
         assert!(Language::Rust.defines(rust, "control"));
+        let python = "def control (observation):\n    pass\n";
+        assert!(Language::Python.defines(python, "control"));
+        assert!(!Language::Python.defines(python, "observation"));
         assert!(!Language::Rust.defines(rust, "con"));
     }
 

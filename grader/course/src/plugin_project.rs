@@ -61,7 +61,7 @@ dependencies = [
 pub(crate) fn project_files(lab: &Lab, language: Language) -> Vec<(String, String)> {
     let own = |path: &str, text: String| (path.to_owned(), text);
     let mut files = match language {
-        Language::Rhai => return Vec::new(),
+        Language::Rhai | Language::Python => return Vec::new(),
         Language::C => {
             let (name, text) = HEADER;
             vec![

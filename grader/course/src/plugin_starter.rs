@@ -1,4 +1,4 @@
-//! A starter in a compiled language for a lab that has none: the functions of its tasks, which answer nothing yet.
+//! A starter in a language other than that of scripts for a lab that has none: the functions of its tasks, which answer nothing yet.
 
 use std::fmt::Write as _;
 
@@ -65,6 +65,7 @@ pub(crate) fn plugin_starter(lab: &Lab, language: Language) -> Option<String> {
     let called = called(lab);
     match language {
         Language::Rhai => None,
+        Language::Python => Some(python_starter(lab, &called)),
         Language::Rust => Some(in_rust(lab, &called)),
         Language::C => Some(in_c(lab, &called)),
     }
@@ -136,6 +137,70 @@ fn in_c(lab: &Lab, called: &[(Called<'_>, Vec<&str>)]) -> String {
                 "\n/* {of}, called every control period: write one number for each joint. */\n\
                  void km_control(const km_observation *observation, double *command) {{\n    \
                  for (km_u32 i = 0; i < observation->joints; i++) command[i] = 0.0;\n}}\n"
+            ),
+        };
+    }
+    text
+}
+
+fn python_starter(lab: &Lab, called: &[(Called<'_>, Vec<&str>)]) -> String {
+    let title: Vec<&str> = lab.title.split_whitespace().collect();
+    let mut text = format!(
+        "# {}\n#\n# brief.html says what is asked for, python.md what there is to use.\n#\n#     kinemark grade\n\
+         from __future__ import annotations\n\nfrom typing import TYPE_CHECKING\n\nimport numpy as np\n\n\
+         if TYPE_CHECKING:  # for your editor: kinemark.pyi says what the parameters have\n    \
+         from kinemark import Given, Observation, Robot, Vector\n",
+        title.join(" ")
+    );
+    for (one, tasks) in called {
+        let of = of_tasks(tasks);
+        // into a string: nothing can fail
+        let _ = match one {
+            Called::Usual(Function::ForwardKinematics(_)) => write!(
+                text,
+                "\n\ndef forward_kinematics(robot: Robot, q: Vector):\n    \
+                 # {of}: return x, y and z of the TCP in metres.\n    return [0.0, 0.0, 0.0]\n"
+            ),
+            Called::Usual(Function::InverseKinematics(_)) => write!(
+                text,
+                "\n\ndef inverse_kinematics(robot: Robot, position: Vector):\n    \
+                 # {of}: return a list of every way to get to position = [x, y, z], each the position of every joint.\n    return []\n"
+            ),
+            Called::Usual(Function::Jacobian(rows)) => {
+                let names: Vec<&str> = rows.names().collect();
+                write!(
+                    text,
+                    "\n\ndef jacobian(robot: Robot, q: Vector):\n    \
+                     # {of}: return the rows of the Jacobian ({}), one number a joint in each.\n    \
+                     return np.zeros(({}, robot.joints))\n",
+                    names.join(", "),
+                    names.len()
+                )
+            }
+            Called::Named(task) => {
+                let parameters = task.parameters();
+                let typed: Vec<String> = parameters
+                    .iter()
+                    .map(|name| match *name {
+                        "robot" => "robot: Robot".to_owned(),
+                        "given" => "given: Given".to_owned(),
+                        name => format!("{name}: Vector"),
+                    })
+                    .collect();
+                write!(
+                    text,
+                    "\n\ndef {}({}):\n    # {of}: the brief says what to return.\n    return None\n",
+                    task.name(),
+                    typed.join(", ")
+                )
+            }
+            // every usual function stands above
+            Called::Usual(_) => Ok(()),
+            Called::Control => write!(
+                text,
+                "\n\ndef control(observation: Observation):\n    \
+                 # {of}, called every control period: return one number for each joint.\n    \
+                 return np.zeros(len(observation.q))\n"
             ),
         };
     }

@@ -6,6 +6,9 @@ const HAND_IN_ENDING: &str = ".kinemark";
 /// The ending of the functions' names that editors read: nobody's work.
 const DEFINITIONS_ENDING: &str = ".d.rhai";
 
+/// The endings of what is graded as it is.
+const SCRIPT_ENDINGS: [&str; 2] = [".rhai", ".py"];
+
 /// The name, without endings, that a submission has.
 const SUBMISSION: &str = "submission";
 
@@ -20,7 +23,7 @@ const COPY_WORDS: [&str; 6] = ["copy", "kopie", "copie", "copia", "kopia", "コ�
 pub(crate) enum NameKind {
     /// A hand-in file.
     HandIn,
-    /// `submission.rhai`, `submission.wasm`, `submission.rhai.txt`, or a copy that a browser or an LMS renamed.
+    /// `submission.rhai`, `submission.py`, `submission.wasm`, `submission.rhai.txt`, or a copy that a browser or an LMS renamed.
     Submission,
     /// `submission.txt`, as some LMSs rename what they do not know.
     SubmissionText,
@@ -48,7 +51,10 @@ impl NameKind {
         if stem.ends_with(DEFINITIONS_ENDING) {
             return Self::Other;
         }
-        let script = strip_ending(stem, ".rhai").or_else(|| match text {
+        let script = SCRIPT_ENDINGS
+            .iter()
+            .find_map(|ending| strip_ending(stem, ending));
+        let script = script.or_else(|| match text {
             false => strip_ending(stem, ".wasm"),
             true => None,
         });
@@ -86,7 +92,8 @@ pub(crate) fn stem(name: &str) -> &str {
             Some((before, ending)) if !before.is_empty() && is_ending(ending) => {
                 let was_text = lower(ending) == "txt";
                 stem = without_bracketed_count(before);
-                if !was_text || !lower(stem).ends_with(".rhai") {
+                let mut endings = SCRIPT_ENDINGS.iter();
+                if !was_text || !endings.any(|ending| lower(stem).ends_with(ending)) {
                     break;
                 }
             }
@@ -147,6 +154,9 @@ mod tests {
             "submission.rhai",
             "Submission.RHAI",
             "submission.wasm",
+            "submission.py",
+            "submission (1).py",
+            "submission.py.txt",
             "submission.rhai.txt",
             "submission (1).rhai",
             "submission(2).rhai",
@@ -173,6 +183,9 @@ mod tests {
             ("submission_final.rhai", NameKind::Script),
             ("lab 1 – Lösung.rhai.txt", NameKind::Script),
             ("controller.wasm", NameKind::Script),
+            ("lab1.py", NameKind::Script),
+            ("starter.py", NameKind::Starter),
+            ("kinemark.pyi", NameKind::Other),
             ("starter.rhai", NameKind::Starter),
             ("starter (1).rhai", NameKind::Starter),
             ("work.ZIP", NameKind::Archive),
@@ -194,6 +207,7 @@ mod tests {
             ("s1000.rhai", "s1000"),
             ("s1000 (1).rhai", "s1000"),
             ("s1000.rhai.txt", "s1000"),
+            ("s1000.py.txt", "s1000"),
             ("s1000.rhai (1).txt", "s1000"),
             ("s-1000-2.zip", "s-1000-2"),
             ("20.1234", "20.1234"),

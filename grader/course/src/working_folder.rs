@@ -19,6 +19,8 @@ use crate::plugin_starter::plugin_starter;
 
 /// The file that a student works in, where it is a script.
 pub const SUBMISSION_FILE: &str = "submission.rhai";
+/// The file that a student works in, where it is in Python.
+pub const PYTHON_FILE: &str = "submission.py";
 /// The brief as text, which links the pictures beside it.
 pub const BRIEF_FILE: &str = "brief.md";
 /// The brief as a page.
@@ -125,6 +127,7 @@ pub fn working_folder(
         title: &lab.title,
         text: &brief,
         parts: &parts,
+        python_first: language == Language::Python,
         arm: LiveArm::of(&lab.robot, &lab.frame, arm_shows(lab)),
     });
     let mut written = vec![
@@ -148,7 +151,7 @@ pub fn working_folder(
     Ok(written)
 }
 
-/// What a submission in `language` begins with: the lab's own starter, or where it has none in a compiled language, its functions.
+/// What a submission in `language` begins with: the lab's own starter, or where it has none in a language that is no script, its functions.
 fn starter(files: &dyn Files, lab: &Lab, language: Language) -> Result<String, WorkingFolderError> {
     let own = text(files, &lab.name, language.starter())?;
     own.or_else(|| plugin_starter(lab, language))

@@ -24,6 +24,8 @@ pub struct Brief<'a> {
     pub text: &'a str,
     /// Where the parts of its programs are.
     pub parts: CodeParts<'a>,
+    /// Whether what it says in two languages shows that in Python first.
+    pub python_first: bool,
     /// The lab's arm, where it can be moved.
     pub arm: Option<LiveArm<'a>>,
 }
@@ -32,7 +34,8 @@ pub struct Brief<'a> {
 pub fn brief_page(brief: &Brief<'_>) -> String {
     let mut text = String::new();
     let events = Parser::new_ext(brief.text, MARKDOWN).map(drawn);
-    pulldown_cmark::html::push_html(&mut text, coloured(events, brief.parts));
+    let events = coloured(events, brief.parts, brief.python_first);
+    pulldown_cmark::html::push_html(&mut text, events.into_iter());
     // a wide table or a long line of a program scrolls by itself, by keys too; the page does not
     let mut text = text
         .replace(
@@ -105,6 +108,7 @@ mod tests {
             title: "Lab <1>",
             text: "# Lab\n\n| a | b |\n|---|---|\n| 1 | 2 |\n\n![the arm](frame.svg)\n\n<details>\n<summary>why</summary>\n\nso\n\n</details>\n\n```\nfn f() {}\n```\n\nWith $q^2$.\n\n```rust\nfn g() {}\n```\n",
             parts: &|_: &str| vec![("keyword", 0..2)],
+            python_first: false,
             arm: None,
         });
         for part in [
@@ -135,6 +139,7 @@ mod tests {
                 title: "Lab",
                 text,
                 parts: &|_: &str| Vec::new(),
+                python_first: false,
                 arm,
             })
         };

@@ -245,6 +245,22 @@ pub struct Answer {
     pub operations: u64,
 }
 
+/// The functions of a submission that tasks call, and the names of their parameters.
+pub(super) const ENTRY_POINTS: &[(&str, &[&str])] = &[
+    ("forward_kinematics", &["robot", "q"]),
+    ("inverse_kinematics", &["robot", "position"]),
+    ("jacobian", &["robot", "q"]),
+    ("init", &["robot", "task"]),
+    ("control", &["observation"]),
+];
+
+/// The parameters of one of [`ENTRY_POINTS`]; empty for others.
+pub(super) fn entry_parameters(name: &str) -> &'static [&'static str] {
+    let mut entries = ENTRY_POINTS.iter();
+    let entry = entries.find(|(entry, _)| *entry == name);
+    entry.map_or(&[], |(_, parameters)| parameters)
+}
+
 /// A position in the submission; line and column count from one, the column in characters.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SourcePosition {
@@ -397,6 +413,23 @@ pub struct Budgets {
     pub instructions_per_task: u64,
     /// Bytes of a compiled module.
     pub module_bytes: u64,
+}
+
+/// Instructions of the runtime that Python may use for an operation of a script: what a line of both does then costs about the same share.
+const PYTHON_INSTRUCTIONS_PER_OPERATION: u64 = 2_000;
+
+impl Budgets {
+    /// Instructions of one call of a submission in Python.
+    pub fn python_instructions_per_call(&self) -> u64 {
+        self.operations_per_call
+            .saturating_mul(PYTHON_INSTRUCTIONS_PER_OPERATION)
+    }
+
+    /// Instructions of a submission in Python in a whole task.
+    pub fn python_instructions_per_task(&self) -> u64 {
+        self.operations_per_task
+            .saturating_mul(PYTHON_INSTRUCTIONS_PER_OPERATION)
+    }
 }
 
 impl Default for Budgets {

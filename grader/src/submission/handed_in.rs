@@ -12,13 +12,15 @@ pub enum Program {
     Script(String),
     /// The bytes of a WebAssembly module.
     Module(Vec<u8>),
+    /// The text of a file in Python.
+    Python(String),
 }
 
 impl Program {
     /// The text in which positions count lines; empty for a module.
     pub fn text(&self) -> &str {
         match self {
-            Self::Script(text) => text,
+            Self::Script(text) | Self::Python(text) => text,
             Self::Module(_) => "",
         }
     }
@@ -26,7 +28,7 @@ impl Program {
     /// Its bytes.
     pub fn bytes(&self) -> &[u8] {
         match self {
-            Self::Script(text) => text.as_bytes(),
+            Self::Script(text) | Self::Python(text) => text.as_bytes(),
             Self::Module(bytes) => bytes,
         }
     }
@@ -79,7 +81,7 @@ impl Submission {
         &self.name
     }
 
-    /// The text of a script; empty for a module.
+    /// The text of a script or of a file in Python; empty for a module.
     pub fn text(&self) -> &str {
         self.program.text()
     }
@@ -103,10 +105,53 @@ impl From<Source> for Submission {
 
 impl From<&Source> for Submission {
     fn from(script: &Source) -> Self {
+        let text = script.text().to_owned();
         Self {
             name: script.name().to_owned(),
-            program: Program::Script(script.text().to_owned()),
+            program: match is_python_name(script.name()) {
+                true => Program::Python(text),
+                false => Program::Script(text),
+            },
             sources: None,
         }
+    }
+}
+
+/// Whether a file is in Python by its name, whatever a browser or an LMS added to it: `submission.py`, `lab1 (1).py`, `lab1.py-1.txt`.
+fn is_python_name(name: &str) -> bool {
+    let name = name.to_lowercase();
+    let name = name.strip_suffix(".txt").unwrap_or(&name);
+    let mark = name.rsplit_once(".py").map(|(_, mark)| mark);
+    mark.is_some_and(|mark| mark.is_empty() || mark.starts_with([' ', '(', '-']))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn python_is_known_by_the_name_of_its_file() {
+        for name in [
+            "submission.py",
+            "Lab 1.PY",
+            "a.py.txt",
+            "a.py (1).txt",
+            "a.py-1.txt",
+        ] {
+            assert!(is_python_name(name), "{name}");
+        }
+        for name in [
+            "submission.rhai",
+            "python.rhai",
+            "a.pyi",
+            "a.pyc",
+            "py",
+            "a.python.txt",
+        ] {
+            assert!(!is_python_name(name), "{name}");
+        }
+        let python = Submission::from(Source::new("a.py", "x = 1\n"));
+        assert_eq!(python.program(), &Program::Python("x = 1\n".to_owned()));
+        assert_eq!(python.text(), "x = 1\n");
     }
 }

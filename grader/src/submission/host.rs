@@ -35,5 +35,20 @@ pub fn open_here(opening: &Opening) -> Result<Box<dyn Controller>, Stop> {
     Ok(match opening.program {
         Program::Script(_) => Box::new(ScriptController::open(opening)?),
         Program::Module(_) => Box::new(PluginController::open(opening)?),
+        #[cfg(feature = "python")]
+        Program::Python(_) => Box::new(super::python::PythonController::open(opening)?),
+        #[cfg(not(feature = "python"))]
+        Program::Python(_) => return Err(without_python()),
+    })
+}
+
+/// The stop where Python is left out of the build: in a browser.
+#[cfg(not(feature = "python"))]
+fn without_python() -> Stop {
+    Stop::DidNotBuild(super::controller::Mistake {
+        message: "this build of Kinemark does not run Python".to_owned(),
+        place: None,
+        help: Some("grade it with the program that you install, or hand in a script".to_owned()),
+        further: Vec::new(),
     })
 }

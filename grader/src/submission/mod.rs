@@ -1,5 +1,5 @@
 //! The interface to a student's code ([`controller`]), the hosts that open it ([`host`], [`not_text`]), the parsing of answers ([`answer`]), and the
-//! script language ([`rhai`]).
+//! languages ([`rhai`], [`python`], [`plugin`] for compiled modules).
 
 pub mod answer;
 pub mod controller;
@@ -8,5 +8,7 @@ pub mod host;
 pub mod not_text;
 mod output;
 pub mod plugin;
+#[cfg(feature = "python")]
+pub mod python;
 pub mod rhai;
 mod robot_model;

@@ -74,7 +74,7 @@ impl Spent {
 
 /// The step of a case that is only handed in: it is graded as course staff grade it.
 fn graded(case: &Case, expect: &Expect, bed: &TestBed) -> Step {
-    let names = ["submission.rhai", "submission.wasm"];
+    let names = ["submission.rhai", "submission.py", "submission.wasm"];
     let submission = names.into_iter().find(|name| bed.path(name).exists());
     let words = [
         "grade",

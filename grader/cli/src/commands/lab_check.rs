@@ -130,7 +130,7 @@ fn audited(
     let formula = formulas.first().map(ToString::to_string);
     audit.brief(lab, brief.as_deref(), formula.as_deref());
     let starter_grade = audit.take(all.starter);
-    audit_compiled_starters(&mut audit, files, lab)?;
+    audit_other_starters(&mut audit, files, lab)?;
     let reference_grade = audit.take(all.reference);
     if let Some(grade) = &reference_grade {
         audit.measure_reference(grade);
@@ -179,9 +179,9 @@ fn show(args: &Args, audit: &Audit) -> Result<(), Failure> {
     }
 }
 
-/// Looks into the starters of compiled languages, where there are any.
-fn audit_compiled_starters(audit: &mut Audit, files: &dyn Files, lab: &Lab) -> Result<(), Failure> {
-    for language in [Language::Rust, Language::C] {
+/// Looks into the starters of other languages, where there are any.
+fn audit_other_starters(audit: &mut Audit, files: &dyn Files, lab: &Lab) -> Result<(), Failure> {
+    for language in [Language::Python, Language::Rust, Language::C] {
         let path = format!("{}/{}", lab.name, language.starter());
         let text = files.read(&path);
         let text = text.map_err(|why| Failure::broken(format!("{path}: {why}"), UNREAD_HELP))?;

@@ -20,7 +20,7 @@ use crate::{interrupt, output};
 #[derive(Debug, clap::Args)]
 #[command(
     after_help = "Examples:\n  kinemark new 01-kinematics\n  cd 01-kinematics\n  kinemark grade\n\n  \
-    kinemark new 01-kinematics --lang c\n\n\
+    kinemark new 01-kinematics --lang python\n  kinemark new 01-kinematics --lang c\n\n\
     With --lang rust and --lang c the folder is a project with everything that it needs to build; its README.md has the commands. \
     See docs/plugin.md."
 )]
@@ -44,6 +44,8 @@ pub(crate) struct Args {
 pub(crate) enum Lang {
     /// A script, graded as it is.
     Rhai,
+    /// A file in Python, graded as it is.
+    Python,
     /// A crate.
     Rust,
     /// A file with a header.
@@ -54,6 +56,7 @@ impl From<Lang> for Language {
     fn from(lang: Lang) -> Self {
         match lang {
             Lang::Rhai => Self::Rhai,
+            Lang::Python => Self::Python,
             Lang::Rust => Self::Rust,
             Lang::C => Self::C,
         }

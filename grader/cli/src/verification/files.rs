@@ -4,8 +4,8 @@ use kinemark_grader::lab::Lab;
 use kinemark_grader::record::grade::GradeMode;
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_report::output::{
-    self, LAB_FOLDER, MANIFEST_FILE, MODULE_FILE, Manifest, OutFile, Pixels, RECORD_FILE,
-    SUBMISSION_FILE, digest,
+    self, LAB_FOLDER, MANIFEST_FILE, MODULE_FILE, Manifest, OutFile, PYTHON_FILE, Pixels,
+    RECORD_FILE, SUBMISSION_FILE, digest,
 };
 use kinemark_report::visible::shortened;
 
@@ -186,7 +186,7 @@ fn compare_others(
 fn is_of_no_run(path: &str) -> bool {
     let is_copy = path.strip_prefix(LAB_FOLDER);
     is_copy.is_some_and(|rest| rest.starts_with('/'))
-        || [RECORD_FILE, SUBMISSION_FILE, MODULE_FILE].contains(&path)
+        || [RECORD_FILE, SUBMISSION_FILE, PYTHON_FILE, MODULE_FILE].contains(&path)
 }
 
 /// What a file of a report is beside the same file made now.

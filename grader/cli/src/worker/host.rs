@@ -148,6 +148,10 @@ impl Held {
         let (operations_per_call, operations) = match opening.program {
             Program::Script(_) => (budgets.operations_per_call, budgets.operations_per_task),
             Program::Module(_) => (budgets.instructions_per_call, budgets.instructions_per_task),
+            Program::Python(_) => (
+                budgets.python_instructions_per_call(),
+                budgets.python_instructions_per_task(),
+            ),
         };
         Self {
             operations_per_call,

@@ -107,7 +107,7 @@ const CPU_SECONDS: u64 = 50;
 const CPU_GRACE_SECONDS: u64 = 5;
 /// Address space of a worker.
 #[cfg(unix)]
-const ADDRESS_SPACE_BYTES: u64 = 256 << 20;
+const ADDRESS_SPACE_BYTES: u64 = 512 << 20;
 
 /// Seals this process, and does `work` in a thread of its own, which begins once every layer is on. Call it in the first thread, with no
 /// other beside it; `parent` is the process that this one must not outlive. `None` if that is gone: there is nothing to seal for.

@@ -15,6 +15,6 @@ pub use material::{Material, OutFile, OutputError, Pixels, Sources, shows};
 pub use run_log::FILE as LOG_FILE;
 pub use storyboards::FILE as STORYBOARD_FILE;
 pub use table::{
-    LAB_FOLDER, MODULE_FILE, OUTPUTS, Output, PAGE_FILE, PLOT_FOLDER, RECORD_FILE, SOURCES_FOLDER,
-    SUBMISSION_FILE, files, json,
+    LAB_FOLDER, MODULE_FILE, OUTPUTS, Output, PAGE_FILE, PLOT_FOLDER, PYTHON_FILE, RECORD_FILE,
+    SOURCES_FOLDER, SUBMISSION_FILE, files, json,
 };

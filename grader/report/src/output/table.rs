@@ -13,6 +13,8 @@ pub const RECORD_FILE: &str = "grade.json";
 pub const PAGE_FILE: &str = "report.html";
 /// The copy of a submission that is a script, or that is neither.
 pub const SUBMISSION_FILE: &str = "submission.rhai";
+/// The copy of a submission in Python.
+pub const PYTHON_FILE: &str = "submission.py";
 /// The copy of a submission that is a compiled module.
 pub const MODULE_FILE: &str = "submission.wasm";
 /// The folder of the copies of lab, robot and scenes.
@@ -47,9 +49,9 @@ pub const OUTPUTS: &[Output] = &[
         is_requested: always,
         files: |material| {
             let sources = &material.sources;
-            let is_script = sources.submission_file == SUBMISSION_FILE;
+            let is_text = sources.submission_file != MODULE_FILE;
             let extras = PageExtras {
-                script: is_script.then_some(sources.submission),
+                script: is_text.then_some(sources.submission),
                 module_sources: sources.module_sources,
                 label: material.request.label.as_deref(),
                 chapters: material.request.storyboard,

@@ -70,19 +70,19 @@ const OF_TWO: &[(&str, OfTwo)] = &[
 const OUTPUT: [&str; 3] = ["log", "plot", "fail"];
 
 /// What imports work on.
-pub(super) struct State {
-    pub(super) limits: StoreLimits,
-    pub(super) memory: Option<Memory>,
-    pub(super) output: Rc<RefCell<Output>>,
-    pub(super) model: Option<Rc<Model>>,
-    pub(super) grants: Vec<Grant>,
+pub(in crate::submission) struct State {
+    pub(in crate::submission) limits: StoreLimits,
+    pub(in crate::submission) memory: Option<Memory>,
+    pub(in crate::submission) output: Rc<RefCell<Output>>,
+    pub(in crate::submission) model: Option<Rc<Model>>,
+    pub(in crate::submission) grants: Vec<Grant>,
     /// The longest text, in bytes.
-    pub(super) text_size: u64,
+    pub(in crate::submission) text_size: u64,
 }
 
 /// Why an import ended a call.
 #[derive(Debug, Clone)]
-pub(super) enum Ended {
+pub(in crate::submission) enum Ended {
     /// The module's own words.
     Failed(String),
     /// What is wrong with how it called, and what to do.
@@ -124,7 +124,7 @@ pub(super) fn type_of(module: &str, name: &str) -> Option<FuncType> {
 }
 
 /// All imports.
-pub(super) fn linker(engine: &Engine) -> Result<Linker<State>, Error> {
+pub(in crate::submission) fn linker(engine: &Engine) -> Result<Linker<State>, Error> {
     let mut linker = Linker::new(engine);
     for &(name, function) in OF_ONE {
         let apply = move |mut caller: Caller<'_, State>, x: f64| {
@@ -209,7 +209,12 @@ fn bytes(caller: &Caller<'_, State>, at: u32, count: u64) -> Result<Vec<u8>, Err
     }
 }
 
-fn text(caller: &mut Caller<'_, State>, at: u32, count: u32) -> Result<String, Error> {
+/// A text in the module's memory, paid for.
+pub(in crate::submission) fn text(
+    caller: &mut Caller<'_, State>,
+    at: u32,
+    count: u32,
+) -> Result<String, Error> {
     if u64::from(count) > caller.data().text_size {
         return Err(Error::host(Ended::Exhausted(Budget::TextSize)));
     }

@@ -14,3 +14,5 @@ mod names;
 mod tests;
 
 pub use controller::PluginController;
+// the runtime of Python has the same imports
+pub(super) use imports::{Ended, State, linker, text};

@@ -7,7 +7,7 @@ use kinemark_sim::text::LONGEST_TYPO;
 use super::foreign;
 use super::places::Places;
 use super::unknown::Unknown;
-use crate::submission::controller::{Grant, SourcePosition};
+use crate::submission::controller::{ENTRY_POINTS, Grant, SourcePosition};
 
 /// All names of one submission.
 #[derive(Debug, Default)]
@@ -41,15 +41,6 @@ pub(super) struct Names {
     /// Names of the parameters that hold this input.
     pub(super) given_parameters: BTreeSet<String>,
 }
-
-/// The parameters of a submission's functions.
-pub(super) const ENTRY_POINTS: &[(&str, &[&str])] = &[
-    ("forward_kinematics", &["robot", "q"]),
-    ("inverse_kinematics", &["robot", "position"]),
-    ("jacobian", &["robot", "q"]),
-    ("init", &["robot", "task"]),
-    ("control", &["observation"]),
-];
 
 type Words = (String, Option<String>);
 

@@ -3,10 +3,9 @@
 use rhai::{LexError, ParseErrorType};
 
 use super::foreign;
-use super::hints::ENTRY_POINTS;
 use super::mistake::{Context, WHOLE_INDEX, plain, shortened};
 use super::signs::Signs;
-use crate::submission::controller::{Mistake, SourcePosition};
+use crate::submission::controller::{ENTRY_POINTS, Mistake, SourcePosition};
 
 /// The help where nothing is known but that a statement ends.
 pub(super) const END_BEFORE: &str = "end the statement before it with `;`";

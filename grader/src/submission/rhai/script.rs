@@ -11,7 +11,7 @@ use rhai::{
 use super::budget::{Meter, place};
 use super::convert;
 use super::engine::{self, ARGUMENTS, Globals, MEMORY};
-use super::hints::{ENTRY_POINTS, Names};
+use super::hints::Names;
 use super::metered::metered;
 use super::mistake::{Context, Problem, raise};
 use super::places::Places;
@@ -19,8 +19,8 @@ use super::slips;
 use super::unknown::unknown;
 use super::weight;
 use crate::submission::controller::{
-    Answer, AskedFunction, Budget, Budgets, Call, Controller, Mistake, Namesake, Opening,
-    RobotFacts, Said, SensorFacts, SourcePosition, Stop, Value,
+    Answer, AskedFunction, Budget, Budgets, Call, Controller, ENTRY_POINTS, Mistake, Namesake,
+    Opening, RobotFacts, Said, SensorFacts, SourcePosition, Stop, Value, entry_parameters,
 };
 use crate::submission::robot_model::Model;
 
@@ -414,14 +414,6 @@ pub fn refused_name(name: &str) -> Option<&'static str> {
         Ok(_) => None,
         Err(_) => Some("it is a word of the language"),
     }
-}
-
-/// The parameters of a function that the grader calls; empty for others.
-fn entry_parameters(name: &str) -> &'static [&'static str] {
-    ENTRY_POINTS
-        .iter()
-        .find(|(entry, _)| *entry == name)
-        .map_or(&[], |(_, parameters)| parameters)
 }
 
 /// The most characters of a name.

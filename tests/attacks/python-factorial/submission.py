@@ -1,0 +1,5 @@
+import math
+
+
+def forward_kinematics(robot, q):
+    return math.factorial(10**6)

@@ -1,0 +1,5 @@
+import itertools
+
+
+def forward_kinematics(robot, q):
+    return sum(itertools.count())

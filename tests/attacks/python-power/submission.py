@@ -1,0 +1,2 @@
+def forward_kinematics(robot, q):
+    return 9**9**9**9

@@ -1,0 +1,2 @@
+def forward_kinematics(robot, q):
+    return forward_kinematics(robot, q)

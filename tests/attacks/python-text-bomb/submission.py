@@ -1,0 +1,4 @@
+def forward_kinematics(robot, q):
+    text = 'x'
+    while True:
+        text += text
