@@ -256,7 +256,8 @@ fn after_the_due_date_students_get_the_solution_and_nothing_else() {
         .iter()
         .map(|path| path.strip_prefix(folder))
         .collect();
-    assert_eq!(names, [Some("solution.c"), Some("solution.rhai")]);
+    let expected = ["solution.c", "solution.py", "solution.rhai"];
+    assert_eq!(names, expected.map(Some));
     let home = "after.zip-unpacked/01-kinematics";
     let ran = run_in(&bed, home, &["grade", lab, "solution/solution.rhai"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");

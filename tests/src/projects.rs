@@ -61,7 +61,7 @@ fn a_project_has_all_that_it_needs_to_build() {
     assert!(bed.path("plain/submission.rhai").is_file());
     let ran = bed.run(&["new", "01-kinematics", "other", "--lang", "cobol"]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
-    assert!(ran.stderr.contains("rhai, rust, c"), "{ran:?}");
+    assert!(ran.stderr.contains("rhai, python, rust, c"), "{ran:?}");
 }
 
 #[test]

@@ -2,14 +2,14 @@
 //! under a name that follows from its content, whole or absent; nothing in it is ever changed, so books join by copying.
 
 use std::collections::BTreeSet;
-use std::fs::File;
-use std::io::{self, Read as _, Seek as _, SeekFrom};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use jiff::Timestamp;
 use kinemark_grader::record::grade::Grade;
 use kinemark_grader::task::files::Files;
+use serde::de::IgnoredAny;
 use serde::{Deserialize, Serialize};
 
 use crate::durable;
@@ -228,16 +228,11 @@ impl Book {
             .join(format!("{key}.json"))
     }
 
-    /// Whether there is a record of this key, as far as a look at its end says: one that a loss of power cut short is none.
+    /// Whether there is a record of this key: one that a loss of power cut short is none.
     pub fn has_record(&self, key: &str) -> bool {
-        let last_byte = || -> io::Result<u8> {
-            let mut file = File::open(self.record_path(key))?;
-            file.seek(SeekFrom::End(-1))?;
-            let mut last = [0];
-            file.read_exact(&mut last)?;
-            Ok(last[0])
-        };
-        last_byte().is_ok_and(|last| last == b'}')
+        // where a record was cut may look like its end: only all of it says that it is whole
+        let bytes = std::fs::read(self.record_path(key));
+        bytes.is_ok_and(|bytes| serde_json::from_slice::<IgnoredAny>(&bytes).is_ok())
     }
 
     /// Keeps a record.

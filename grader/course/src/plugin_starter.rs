@@ -144,32 +144,25 @@ fn in_c(lab: &Lab, called: &[(Called<'_>, Vec<&str>)]) -> String {
 }
 
 fn python_starter(lab: &Lab, called: &[(Called<'_>, Vec<&str>)]) -> String {
-    let title: Vec<&str> = lab.title.split_whitespace().collect();
-    let mut text = format!(
-        "# {}\n#\n# brief.html says what is asked for, python.md what there is to use.\n#\n#     kinemark grade\n\
-         from __future__ import annotations\n\nfrom typing import TYPE_CHECKING\n\nimport numpy as np\n\n\
-         if TYPE_CHECKING:  # for your editor: kinemark.pyi says what the parameters have\n    \
-         from kinemark import Given, Observation, Robot, Vector\n",
-        title.join(" ")
-    );
+    let mut functions = String::new();
     for (one, tasks) in called {
         let of = of_tasks(tasks);
         // into a string: nothing can fail
         let _ = match one {
             Called::Usual(Function::ForwardKinematics(_)) => write!(
-                text,
+                functions,
                 "\n\ndef forward_kinematics(robot: Robot, q: Vector):\n    \
                  # {of}: return x, y and z of the TCP in metres.\n    return [0.0, 0.0, 0.0]\n"
             ),
             Called::Usual(Function::InverseKinematics(_)) => write!(
-                text,
+                functions,
                 "\n\ndef inverse_kinematics(robot: Robot, position: Vector):\n    \
                  # {of}: return a list of every way to get to position = [x, y, z], each the position of every joint.\n    return []\n"
             ),
             Called::Usual(Function::Jacobian(rows)) => {
                 let names: Vec<&str> = rows.names().collect();
                 write!(
-                    text,
+                    functions,
                     "\n\ndef jacobian(robot: Robot, q: Vector):\n    \
                      # {of}: return the rows of the Jacobian ({}), one number a joint in each.\n    \
                      return np.zeros(({}, robot.joints))\n",
@@ -188,7 +181,7 @@ fn python_starter(lab: &Lab, called: &[(Called<'_>, Vec<&str>)]) -> String {
                     })
                     .collect();
                 write!(
-                    text,
+                    functions,
                     "\n\ndef {}({}):\n    # {of}: the brief says what to return.\n    return None\n",
                     task.name(),
                     typed.join(", ")
@@ -197,14 +190,24 @@ fn python_starter(lab: &Lab, called: &[(Called<'_>, Vec<&str>)]) -> String {
             // every usual function stands above
             Called::Usual(_) => Ok(()),
             Called::Control => write!(
-                text,
+                functions,
                 "\n\ndef control(observation: Observation):\n    \
                  # {of}, called every control period: return one number for each joint.\n    \
                  return np.zeros(len(observation.q))\n"
             ),
         };
     }
-    text
+    let title: Vec<&str> = lab.title.split_whitespace().collect();
+    let types = ["Given", "Observation", "Robot", "Vector"].into_iter();
+    let used = types.filter(|name| functions.contains(&format!(": {name}")));
+    format!(
+        "# {}\n#\n# brief.html says what is asked for, python.md what there is to use.\n#\n#     kinemark grade\n\
+         from __future__ import annotations\n\nfrom typing import TYPE_CHECKING\n\nimport numpy as np\n\n\
+         if TYPE_CHECKING:  # for your editor: kinemark.pyi says what the parameters have\n    \
+         from kinemark import {}\n{functions}",
+        title.join(" "),
+        used.collect::<Vec<&str>>().join(", ")
+    )
 }
 
 /// A function in Rust: what it imports, and its text.

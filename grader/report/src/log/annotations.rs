@@ -95,18 +95,10 @@ impl Messages<'_> {
         let mut lines: Vec<Line<'_>> = Vec::new();
         let names = run.names();
         for event in &run.trace.events {
-            let level = match event.kind {
-                EventKind::Diverged | EventKind::Stopped => Level::Error,
-                EventKind::Saturated { .. }
-                | EventKind::LimitHit { .. }
-                | EventKind::SpeedLimitHit { .. }
-                | EventKind::UnderResolved { .. } => Level::Warning,
-                _ => Level::Info,
-            };
             let message = names.event(&event.kind);
             lines.push(Line {
                 ns: self.ns(event.tick),
-                level,
+                level: level(&event.kind),
                 message: message.into(),
                 name: "run",
                 source_line: None,
@@ -174,5 +166,17 @@ impl Messages<'_> {
             self.message(topic, ns, &line)?;
         }
         Ok(())
+    }
+}
+
+/// How much an event matters.
+fn level(event: &EventKind) -> Level {
+    match event {
+        EventKind::Diverged | EventKind::Stopped => Level::Error,
+        EventKind::Saturated { .. }
+        | EventKind::LimitHit { .. }
+        | EventKind::SpeedLimitHit { .. }
+        | EventKind::UnderResolved { .. } => Level::Warning,
+        _ => Level::Info,
     }
 }
