@@ -263,7 +263,7 @@ step_exact() {
   local skipped=${KINEMARK_SKIP:-}
   need wasm || skipped="$skipped wasm"
   # of the whole workspace, so that dependencies have the features they were built with
-  KINEMARK_EXACT=all KINEMARK_SKIP=$skipped cargo test --workspace --locked --test system -- determinism compiled_solutions wasm explained
+  KINEMARK_EXACT=all KINEMARK_SKIP=$skipped cargo test --workspace --locked --test system -- determinism compiled_solutions python wasm explained
 }
 
 release() { cargo run --release --quiet --locked -- "$@"; }
