@@ -66,6 +66,7 @@ fn a_folder_in_python_is_graded_as_it_is_made() {
         for file in [
             "submission.py",
             "kinemark.pyi",
+            "__builtins__.pyi",
             "python.md",
             "brief.html",
             "kinemark.toml",

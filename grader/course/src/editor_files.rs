@@ -24,8 +24,10 @@ const OF_SCRIPTS: [(&str, &str); 3] = [
 ];
 
 /// What only Python needs: the types of what Kinemark gives, which editors and type checkers read, and the page for people.
-const OF_PYTHON: [(&str, &str); 2] = [
+const OF_PYTHON: [(&str, &str); 3] = [
     ("kinemark.pyi", include_str!("editor/kinemark.pyi")),
+    // the name by which Pyright, and VS Code with it, finds what needs no import
+    ("__builtins__.pyi", include_str!("editor/builtins.pyi")),
     ("python.md", include_str!("../../../docs/python.md")),
 ];
 
@@ -38,8 +40,8 @@ pub(crate) fn editor_files(language: Language) -> Vec<(String, String)> {
         return vec![(path.to_owned(), building)];
     }
     if language == Language::Python {
-        let [types, page] = OF_PYTHON;
-        return [TASKS, types, page].map(own).to_vec();
+        let [types, builtins, page] = OF_PYTHON;
+        return [TASKS, types, builtins, page].map(own).to_vec();
     }
     let [extensions, definitions, page] = OF_SCRIPTS;
     [extensions, TASKS, definitions, page].map(own).to_vec()

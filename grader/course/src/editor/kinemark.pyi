@@ -1,16 +1,29 @@
 # What Kinemark gives a submission in Python, for editors and type checkers. It is never run; python.md is the page for people.
 from __future__ import annotations
 
-from typing import Any, Iterator, Union
+from typing import Any, ItemsView, Iterator, KeysView, Union, ValuesView, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 Vector = NDArray[np.float64]
 Matrix = NDArray[np.float64]
+Number = Union[float, np.floating[Any], np.integer[Any]]
 
-def plot(name: str, value: Union[float, Vector, list[float]]) -> None:
+def plot(name: str, value: Union[Number, Vector, list[float]]) -> None:
     """Adds a value to a signal of the report; a vector becomes one signal per element."""
+
+@overload
+def quintic(s: Number) -> float: ...
+@overload
+def quintic(s: Union[Vector, list[float]]) -> Vector:
+    """From 0 to 1 while s does, at rest at both ends, and still beyond them."""
+
+@overload
+def quintic_rate(s: Number) -> float: ...
+@overload
+def quintic_rate(s: Union[Vector, list[float]]) -> Vector:
+    """The derivative of quintic."""
 
 class Record:
     """Fields that are also entries: robot.name is robot["name"]."""
@@ -18,6 +31,10 @@ class Record:
     def __getitem__(self, name: str) -> Any: ...
     def __contains__(self, name: object) -> bool: ...
     def __iter__(self) -> Iterator[str]: ...
+    def __len__(self) -> int: ...
+    def keys(self) -> KeysView[str]: ...
+    def values(self) -> ValuesView[Any]: ...
+    def items(self) -> ItemsView[str, Any]: ...
     def get(self, name: str, default: Any = None) -> Any: ...
 
 class Robot(Record):
