@@ -1,2 +1,2 @@
-while True:
-    pass
+# one line, so that each instruction of the loop is of line 2
+while True: pass

@@ -216,6 +216,36 @@ fn check_mask(length: usize, axis: usize, mask: usize, vm: &VirtualMachine) -> P
     )))
 }
 
+/// The places of a part of a key, as numbers within its axis, and whether they come from a slice.
+fn places_along(
+    view: &View,
+    axis: usize,
+    part: Part,
+    vm: &VirtualMachine,
+) -> PyResult<(View, bool)> {
+    let (length, _) = axis_of(view, axis);
+    Ok(match part {
+        Part::Slice(slice) => {
+            let (start, step, count) = places_of(&slice, length);
+            let values = (0..count)
+                .map(|place| (start as isize + place as isize * step) as f64)
+                .collect();
+            (View::new(Dtype::Int, Shape::vector(count), values), true)
+        }
+        Part::Mask(mask) => {
+            check_mask(length, axis, mask.columns(), vm)?;
+            (places_of_mask(&mask), false)
+        }
+        Part::Places(places) => (places, false),
+        Part::At(index) => (View::number(Dtype::Int, index as f64), false),
+        Part::NewAxis | Part::Ellipsis => {
+            return Err(vm.new_index_error(
+                "numpy.newaxis together with a mask or a list of places is not supported here: index twice",
+            ));
+        }
+    })
+}
+
 fn gather(view: &View, parts: Vec<Part>, vm: &VirtualMachine) -> PyResult<Selection> {
     if let [Part::Mask(mask)] = parts.as_slice()
         && mask.rank() == view.rank()
@@ -232,31 +262,10 @@ fn gather(view: &View, parts: Vec<Part>, vm: &VirtualMachine) -> PyResult<Select
             .collect();
         return Ok(Selection::Masked(positions));
     }
-    // along each axis: the places as numbers within the axis, and whether they come from a slice
-    let mut axes = Vec::with_capacity(2);
-    for (axis, part) in parts.into_iter().enumerate() {
-        let (length, _) = axis_of(view, axis);
-        axes.push(match part {
-            Part::Slice(slice) => {
-                let (start, step, count) = places_of(&slice, length);
-                let values = (0..count)
-                    .map(|place| (start as isize + place as isize * step) as f64)
-                    .collect();
-                (View::new(Dtype::Int, Shape::vector(count), values), true)
-            }
-            Part::Mask(mask) => {
-                check_mask(length, axis, mask.columns(), vm)?;
-                (places_of_mask(&mask), false)
-            }
-            Part::Places(places) => (places, false),
-            Part::At(index) => (View::number(Dtype::Int, index as f64), false),
-            Part::NewAxis | Part::Ellipsis => {
-                return Err(vm.new_index_error(
-                    "numpy.newaxis together with a mask or a list of places is not supported here: index twice",
-                ));
-            }
-        });
-    }
+    let axes = parts.into_iter().enumerate();
+    let axes = axes
+        .map(|(axis, part)| places_along(view, axis, part, vm))
+        .collect::<PyResult<Vec<_>>>()?;
     let place = |value: f64, axis: usize| checked(value as isize, axis, axis_of(view, axis).0, vm);
     if let [(places, _)] = axes.as_slice() {
         let mut positions = Vec::with_capacity(places.size());

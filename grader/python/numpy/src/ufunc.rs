@@ -2,6 +2,7 @@
 //!
 //! Every transcendental function is that of the crate `libm`, so that a number has the same bits on every machine.
 
+use crate::array::NdArray;
 use crate::broadcast;
 use crate::convert;
 use crate::dtype::Dtype;
@@ -106,11 +107,44 @@ impl Binary {
     ///
     /// As [`Binary::apply`], and those of reading a list as an array.
     pub fn operate(&self, left: &PyObject, right: &PyObject, vm: &VirtualMachine) -> PyResult {
+        if let Some(result) = self.with_number(left, right, vm)? {
+            return Ok(convert::object(result, vm));
+        }
         let (Some(left), Some(right)) = (convert::operand(left, vm)?, convert::operand(right, vm)?)
         else {
             return Ok(vm.ctx.not_implemented());
         };
         Ok(convert::object(self.apply(&left, &right, vm)?, vm))
+    }
+
+    /// The operator between an array and a number, which is no array here first; `None` for other operands.
+    fn with_number(
+        &self,
+        left: &PyObject,
+        right: &PyObject,
+        vm: &VirtualMachine,
+    ) -> PyResult<Option<View>> {
+        let arrays = (
+            left.downcast_ref::<NdArray>(),
+            right.downcast_ref::<NdArray>(),
+        );
+        let (array, other) = match arrays {
+            (Some(array), None) => (array.view(), right),
+            (None, Some(array)) => (array.view(), left),
+            _ => return Ok(None),
+        };
+        let Some((number, dtype)) = convert::number(other, vm)? else {
+            return Ok(None);
+        };
+        // `apply` looks at exponents before it takes any
+        if self.name == POWER.name {
+            return Ok(None);
+        }
+        let (dtype, function) = self.select(array.dtype().max(dtype), vm)?;
+        Ok(Some(match arrays.0 {
+            Some(_) => broadcast::map(array, dtype, |element| function(element, number)),
+            None => broadcast::map(array, dtype, |element| function(number, element)),
+        }))
     }
 
     /// The operator in place: the result goes into the cells of the array on the left.

@@ -6,6 +6,7 @@
 
 mod convert;
 mod host;
+mod observation;
 mod raised;
 mod run;
 mod start;

@@ -7,13 +7,13 @@ class Record:
     """An object with fields, which are also entries: `robot.name` is `robot["name"]`."""
 
     def __getattr__(self, name):
-        raise AttributeError(_no_field(self, name), name=name, obj=self)
+        raise AttributeError(_no_field_of(self, name), name=name, obj=self)
 
     def __getitem__(self, name):
         try:
             return self.__dict__[name]
         except KeyError:
-            raise KeyError(_no_field(self, name)) from None
+            raise KeyError(_no_field_of(self, name)) from None
 
     def __setitem__(self, name, value):
         self.__dict__[name] = value
@@ -44,12 +44,15 @@ class Record:
         return f"{type(self).__name__}({fields})"
 
 
-def _no_field(record, name):
-    what = type(record).__name__.lower()
-    near = _nearest(name, list(record.__dict__))
+def _no_field(what, names, name):
+    near = _nearest(name, names)
     if near is not None:
         return f"{what} has no {name!r}. Did you mean: {near!r}?"
-    return f"{what} has no {name!r}; it has {', '.join(record.__dict__) or 'nothing'}"
+    return f"{what} has no {name!r}; it has {', '.join(names) or 'nothing'}"
+
+
+def _no_field_of(record, name):
+    return _no_field(type(record).__name__.lower(), list(record.__dict__), name)
 
 
 def _distance(a, b):
@@ -80,15 +83,11 @@ def _nearest(name, names):
     return best
 
 
-class Observation(Record):
-    pass
-
-
 class Robot(Record):
     def __getattr__(self, name):
         if name in ("fk", "jacobian", "gravity", "mass_matrix"):
             raise AttributeError(f"robot.{name} is not granted in this task", name=name, obj=self)
-        raise AttributeError(_no_field(self, name), name=name, obj=self)
+        return Record.__getattr__(self, name)
 
 
 class Sensors(Record):
@@ -450,28 +449,13 @@ def _refusal(name, why):
     return refuse
 
 
-def _quintic(clip):
-    def quintic(s):
-        """From 0 to 1 while `s` does, at rest at both ends, and still beyond them."""
-        s = clip(s, 0.0, 1.0)
-        return s * s * s * (10.0 + s * (-15.0 + 6.0 * s))
-
-    def quintic_rate(s):
-        """The derivative of `quintic`."""
-        s = clip(s, 0.0, 1.0)
-        return 30.0 * s * s * (1.0 - s) * (1.0 - s)
-
-    return quintic, quintic_rate
-
-
 def _start(native):
     import itertools, _operator
 
     modules = dict(native)
-    _builtins.quintic, _builtins.quintic_rate = _quintic(native["numpy"].clip)
-    own = {"plot": native["kinemark"].plot, "quintic": _builtins.quintic, "quintic_rate": _builtins.quintic_rate}
-    own.update(Observation=Observation, Robot=Robot, Sensors=Sensors, Given=Given)
-    modules["kinemark"] = _module("kinemark", own)
+    own = native["kinemark"]
+    _builtins.quintic, _builtins.quintic_rate = own.quintic, own.quintic_rate
+    own.__dict__.update(Robot=Robot, Sensors=Sensors, Given=Given)
     operator = {name: value for name, value in _operator.__dict__.items() if not name.startswith("__")}
     modules.update(
         itertools=itertools,

@@ -40,6 +40,23 @@ fn place_in(code: &Py<PyCode>, instruction: usize) -> Option<Place> {
     Some(place(locations[at].0))
 }
 
+/// Where the statement of an instruction is. What stands before the first statement has the line of the `def`, or of the file's beginning:
+/// whoever is there is about to run a statement, since a loop that begins a function jumps back to behind it.
+fn place_of_statement(code: &Py<PyCode>, instruction: usize) -> Option<Place> {
+    let place = place_in(code, instruction);
+    let next = match code.code.obj_name.as_wtf8().to_string().as_str() {
+        "<module>" if instruction == 0 => place_in(code, 1),
+        // a comprehension begins with its own line
+        name if name.starts_with('<') => None,
+        _ => {
+            let head = code.code.first_line_number.map(|line| line.get() as u32);
+            let rest = (instruction..code.code.locations.len()).filter_map(|at| place_in(code, at));
+            rest.into_iter().find(|place| Some(place.line) != head)
+        }
+    };
+    next.or(place)
+}
+
 /// An exception that a submission did not catch.
 pub(crate) fn raised(error: &PyBaseExceptionRef, vm: &VirtualMachine) -> Reply {
     let kind = error.class().name().to_string();
@@ -121,7 +138,7 @@ fn running() -> (Option<Place>, Option<String>) {
         let here = unsafe { &*frame };
         let code = here.code();
         if is_own(code) {
-            let place = place_in(code, (here.get_lasti() as usize).saturating_sub(1));
+            let place = place_of_statement(code, (here.get_lasti() as usize).saturating_sub(1));
             return (place, Some(code.code.obj_name.as_wtf8().to_string()));
         }
         frame = here.previous();

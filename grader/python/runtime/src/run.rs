@@ -1,12 +1,15 @@
 //! A submission that is loaded, and its calls.
 
-use kinemark_python_wire::{Call, Function, Load, Place, Reads, Reply};
+use std::rc::Rc;
+
+use kinemark_python_wire::{Call, Function, Load, Place, Reply};
 use rustpython_vm::builtins::{PyCode, PyDictRef, PyFunction, PyStr};
 use rustpython_vm::compiler::Mode;
-use rustpython_vm::{AsObject, PyObjectRef, PyRef, PyResult, VirtualMachine};
+use rustpython_vm::{AsObject, PyObjectRef, PyPayload, PyRef, PyResult, VirtualMachine};
 
-use crate::convert::{array, from_value, joints, record, robot, to_value};
+use crate::convert::{from_value, joints, robot, to_value};
 use crate::host;
+use crate::observation::{Moment, Observation, Setting};
 use crate::raised::{raised, set_file};
 use crate::start::{Names, end_line};
 
@@ -14,10 +17,7 @@ use crate::start::{Names, end_line};
 pub(crate) struct Loaded {
     globals: PyDictRef,
     robot: PyObjectRef,
-    task: PyObjectRef,
-    target: PyObjectRef,
-    sensors: Vec<(String, Reads)>,
-    joints: usize,
+    setting: Rc<Setting>,
     most_values: u32,
 }
 
@@ -50,14 +50,18 @@ fn loaded(vm: &VirtualMachine, names: &Names, load: Load) -> PyResult<(Reply, Lo
         })
         .collect();
     let robot = robot(&load.robot, names, vm)?;
-    let joints = joints(&load.robot);
-    let loaded = Loaded {
-        globals,
+    let setting = Setting {
         task: vm.ctx.new_str(load.task).into(),
         target: from_value(&load.target, &names.target, vm)?,
-        joints,
-        robot,
+        joints: joints(&load.robot),
         sensors: load.sensors,
+        sensors_class: names.sensors.clone(),
+        no_field: names.no_field.clone(),
+    };
+    let loaded = Loaded {
+        globals,
+        robot,
+        setting: Rc::new(setting),
         most_values: load.most_values,
     };
     Ok((Reply::Loaded(functions), loaded))
@@ -129,7 +133,7 @@ impl Loaded {
                 let Some(init) = function("init")? else {
                     return Ok(None);
                 };
-                init.call((self.robot.clone(), self.task.clone()), vm)
+                init.call((self.robot.clone(), self.setting.task.clone()), vm)
                     .map(Some)
             }
             Call::Control {
@@ -141,8 +145,14 @@ impl Loaded {
                 let Some(control) = function("control")? else {
                     return Ok(None);
                 };
-                let observation = self.observation(vm, names, tick, [time_s, dt_s], &numbers)?;
-                control.call((observation,), vm).map(Some)
+                let moment = Moment {
+                    tick,
+                    time_s,
+                    dt_s,
+                    numbers,
+                };
+                let observation = Observation::new(Rc::clone(&self.setting), moment);
+                control.call((observation.into_ref(&vm.ctx),), vm).map(Some)
             }
             Call::Function {
                 name,
@@ -162,54 +172,5 @@ impl Loaded {
                 function.call(given, vm).map(Some)
             }
         }
-    }
-
-    fn observation(
-        &self,
-        vm: &VirtualMachine,
-        names: &Names,
-        tick: u64,
-        [time_s, dt_s]: [f64; 2],
-        numbers: &[f64],
-    ) -> PyResult {
-        let mut rest = numbers;
-        let mut take = |count: usize| {
-            let (taken, left) = rest.split_at(count.min(rest.len()));
-            rest = left;
-            taken.to_vec()
-        };
-        let n = self.joints;
-        let fields = vm.ctx.new_dict();
-        // an interned name has its hash already
-        let set = |name: &'static str, value: PyObjectRef| {
-            fields.set_item(vm.ctx.intern_str(name), value, vm)
-        };
-        set("task", self.task.clone())?;
-        set("tick", vm.ctx.new_int(tick).into())?;
-        set("time", vm.ctx.new_float(time_s).into())?;
-        set("dt", vm.ctx.new_float(dt_s).into())?;
-        for name in ["q", "qd", "effort"] {
-            set(name, array(None, take(n), vm))?;
-        }
-        set("tcp", array(None, take(3), vm))?;
-        set("tcp_rotation", array(Some(3), take(9), vm))?;
-        set("target", self.target.clone())?;
-        let sensors = vm.ctx.new_dict();
-        for (name, reads) in &self.sensors {
-            let value = match reads {
-                Reads::Truth => vm
-                    .ctx
-                    .new_bool(take(1).first().is_some_and(|x| *x != 0.0))
-                    .into(),
-                Reads::Number => {
-                    let number = take(1).first().copied().unwrap_or(f64::NAN);
-                    vm.ctx.new_float(number).into()
-                }
-                Reads::Vector(count) => array(None, take(*count as usize), vm),
-            };
-            sensors.set_item(name.as_str(), value, vm)?;
-        }
-        set("sensors", record(&names.sensors, sensors))?;
-        Ok(record(&names.observation, fields))
     }
 }

@@ -1,19 +1,24 @@
 //! The interpreter as every submission finds it: modules that can be imported, `print` and `plot`, and no others.
 
 use kinemark_python_numpy as numpy;
-use rustpython_vm::builtins::{PyBaseExceptionRef, PyDictRef, PyTypeRef};
+use rustpython_vm::builtins::{PyBaseExceptionRef, PyDictRef, PyStr, PyTypeRef};
 use rustpython_vm::function::{FuncArgs, KwArgs, PosArgs};
-use rustpython_vm::{AsObject, Interpreter, PyObjectRef, PyResult, Settings, VirtualMachine};
+use rustpython_vm::{
+    AsObject, Interpreter, Py, PyObject, PyObjectRef, PyResult, Settings, VirtualMachine,
+};
 
+use crate::convert::{Numbers, array, numbers};
 use crate::host;
+use crate::observation::Observation;
 
 /// The classes of what submissions are given.
 pub(crate) struct Names {
-    pub(crate) observation: PyTypeRef,
     pub(crate) robot: PyTypeRef,
     pub(crate) sensors: PyTypeRef,
     pub(crate) target: PyTypeRef,
     pub(crate) given: PyTypeRef,
+    /// Says that a record has no such field: a function of its kind, its fields and the name.
+    pub(crate) no_field: PyObjectRef,
 }
 
 /// How deep Python functions may call each other.
@@ -55,6 +60,16 @@ fn prelude(vm: &VirtualMachine) -> PyResult<Names> {
     vm.run_string(scope.clone(), include_str!("prelude.py"), "kinemark")?;
     let own = vm.new_module("kinemark", vm.ctx.new_dict(), None);
     own.as_object().set_attr("plot", plot, vm)?;
+    own.as_object()
+        .set_attr("Observation", Observation::make_type(), vm)?;
+    for (name, of) in [
+        ("quintic", quintic as fn(f64) -> f64),
+        ("quintic_rate", quintic_rate),
+    ] {
+        let call = move |value: PyObjectRef, vm: &VirtualMachine| of_each(name, of, &value, vm);
+        own.as_object()
+            .set_attr(name, vm.new_function(name, call), vm)?;
+    }
     let native = vm.ctx.new_dict();
     native.set_item("kinemark", own.into(), vm)?;
     let modules: PyDictRef = vm
@@ -68,17 +83,66 @@ fn prelude(vm: &VirtualMachine) -> PyResult<Names> {
     scope.globals.get_item("_start", vm)?.call((native,), vm)?;
     let class = |name: &str| -> PyResult<PyTypeRef> {
         let class = scope.globals.get_item(name, vm)?;
-        class
+        let class: PyTypeRef = class
             .downcast()
-            .map_err(|_| vm.new_type_error("a class of the prelude is none"))
+            .map_err(|_| vm.new_type_error("a class of the prelude is none"))?;
+        class.slots.getattro.store(Some(field_first));
+        Ok(class)
     };
     Ok(Names {
-        observation: class("Observation")?,
         robot: class("Robot")?,
         sensors: class("Sensors")?,
         target: class("Target")?,
         given: class("Given")?,
+        no_field: scope.globals.get_item("_no_field", vm)?,
     })
+}
+
+/// An attribute of a record: a field of it in most cases, which are looked up first.
+fn field_first(record: &PyObject, name: &Py<PyStr>, vm: &VirtualMachine) -> PyResult {
+    if let Some(fields) = record.dict()
+        && let Some(field) = fields.get_item_opt(name, vm)?
+    {
+        return Ok(field);
+    }
+    match record.generic_getattr_opt(name, None, vm)? {
+        Some(value) => Ok(value),
+        None => vm.call_method(record, "__getattr__", (name.to_owned(),)),
+    }
+}
+
+/// From 0 to 1 while `s` does, at rest at both ends, and still beyond them.
+fn quintic(s: f64) -> f64 {
+    let s = s.clamp(0.0, 1.0);
+    s * s * s * (10.0 + s * (-15.0 + 6.0 * s))
+}
+
+/// The derivative of [`quintic`].
+fn quintic_rate(s: f64) -> f64 {
+    let s = s.clamp(0.0, 1.0);
+    30.0 * s * s * (1.0 - s) * (1.0 - s)
+}
+
+/// A function of a number, or of each number of an array or list.
+fn of_each(name: &str, of: fn(f64) -> f64, value: &PyObject, vm: &VirtualMachine) -> PyResult {
+    match numbers(value, vm) {
+        Some(Numbers::One(number)) => Ok(vm.ctx.new_float(of(number)).into()),
+        Some(Numbers::Several(numbers)) => {
+            let shape = value
+                .downcast_ref::<numpy::NdArray>()
+                .map(|array| array.shape());
+            let rows = match shape.as_deref() {
+                Some([rows, _]) => Some(*rows as u32),
+                _ => None,
+            };
+            Ok(array(rows, numbers.into_iter().map(of).collect(), vm))
+        }
+        None => {
+            let kind = value.class().name().to_string();
+            let message = format!("{name}() takes a number, or an array of numbers, not {kind}");
+            Err(vm.new_type_error(message))
+        }
+    }
 }
 
 /// `print(*values, sep=" ", end="\n")`: each line goes to the log; a last line without its end waits for the next call.
@@ -148,14 +212,14 @@ fn plot(name: PyObjectRef, value: PyObjectRef, vm: &VirtualMachine) -> PyResult<
     if count == 0 || count > 60 {
         return Err(vm.new_value_error("the name of a signal has 1 to 60 characters"));
     }
-    let Some(numbers) = crate::convert::numbers(&value, vm) else {
+    let Some(numbers) = numbers(&value, vm) else {
         let kind = value.class().name().to_string();
         let message = format!("plot() takes a number, or a vector of numbers, not {kind}");
         return Err(vm.new_type_error(message));
     };
     match numbers {
-        crate::convert::Numbers::One(number) => host::plot(&name, number),
-        crate::convert::Numbers::Several(numbers) => {
+        Numbers::One(number) => host::plot(&name, number),
+        Numbers::Several(numbers) => {
             for (i, number) in numbers.iter().enumerate() {
                 host::plot(&format!("{name}[{i}]"), *number);
             }

@@ -15,4 +15,5 @@ mod tests;
 
 pub use controller::PluginController;
 // the runtime of Python has the same imports
+#[cfg(feature = "python")]
 pub(super) use imports::{Ended, State, linker, text};

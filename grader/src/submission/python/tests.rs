@@ -127,6 +127,72 @@ fn every_field_of_the_observation_arrives() {
     assert_eq!(value("'beam' in observation.sensors"), Value::Boolean(true));
 }
 
+/// Its fields are made when they are read, which no program can see.
+#[test]
+fn an_observation_is_like_a_record_with_all_its_fields() {
+    for expression in [
+        "observation.q is observation.q and observation['q'] is observation.q",
+        "list(observation) == list(observation.keys()) == list(vars(observation))",
+        "list(observation)[:3] + list(observation)[-1:] == ['task', 'tick', 'time', 'sensors']",
+        "len(observation) == 11 and 'q' in observation and 'x' not in observation and 1 not in observation",
+        "[name for name, value in observation.items() if value is observation.tcp] == ['tcp']",
+        "observation.get('qd') is observation.qd and observation.get('x') is None and observation.get('x', 2) == 2",
+        "repr(observation).startswith(\"Observation(task='move', tick=30, time=0.03, dt=0.01, q=array([0.1, 0.2]), qd=\")",
+        "getattr(observation, 'x', 5) == 5 and not hasattr(observation, 'x') and hasattr(observation, 'sensors')",
+        "__import__('kinemark').Observation is type(observation) and isinstance(observation, __import__('kinemark').Observation)",
+    ] {
+        assert_eq!(value(expression), Value::Boolean(true), "{expression}");
+    }
+    let body = |lines: &str| {
+        let lines: Vec<String> = lines.lines().map(|line| format!("    {line}\n")).collect();
+        control(&format!(
+            "import copy\ndef control(observation):\n{}",
+            lines.concat()
+        ))
+    };
+    let changed = "other = copy.deepcopy(observation)\nobservation.q[0] = 7\nobservation['qd'] = 8\nobservation.dt = 9\n\
+                   return [observation.q[0], observation.qd, observation.dt, other.q[0], other.qd[0], other.dt]";
+    let answer = body(changed).expect("an answer");
+    assert_eq!(answer.value, list(&[7.0, 8.0, 9.0, 0.1, 0.3, 0.01]));
+    for (lines, words) in [
+        (
+            "observation['qdot']",
+            "KeyError: \"observation has no 'qdot'. Did you mean: 'qd'?\"",
+        ),
+        (
+            "observation.last = 1",
+            "AttributeError: observation has no 'last', and keeps nothing: each call is given another one",
+        ),
+        (
+            "del observation.q",
+            "AttributeError: the fields of observation cannot be deleted",
+        ),
+        (
+            "observation[0]",
+            "KeyError: 'observation has no 0; it has task, tick",
+        ),
+        (
+            "observation.sensors.torch",
+            "AttributeError: sensors has no 'torch'. Did you mean: 'touch'?",
+        ),
+    ] {
+        let (message, _, line, _) = mistake(body(lines).unwrap_err());
+        assert!(message.starts_with(words), "{lines}: {message}");
+        assert_eq!(line, 3, "{lines}");
+    }
+}
+
+#[test]
+fn a_quintic_is_taken_of_numbers_and_of_each_element() {
+    for expression in [
+        "quintic(0.5) == 0.5 and quintic(-3) == 0.0 and quintic(2) == 1.0 and quintic_rate(0.5) == 1.875",
+        "(quintic(np.array([[0.0, 0.5], [1.0, 2.0]])) == np.array([[0.0, 0.5], [1.0, 1.0]])).all()",
+        "(quintic_rate([0.0, 0.5]) == np.array([0.0, 1.875])).all() and quintic(np.nan) != quintic(np.nan)",
+    ] {
+        assert_eq!(value(expression), Value::Boolean(true), "{expression}");
+    }
+}
+
 #[test]
 fn the_robot_has_its_facts_and_whole_numbers_are_ints() {
     let source = "def forward_kinematics(robot, q):\n    return [robot.joints, robot.height, *robot.lengths, robot.upper[0], len(robot.joint_names), sum(1 for _ in range(robot.joints))]\n";
