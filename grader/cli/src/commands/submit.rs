@@ -39,7 +39,7 @@ use crate::{disk, interrupt, output, typed_path, working_lab};
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it
     pub(crate) lab: Option<String>,
-    /// The submission: a script, a module, or the folder of a project [default: submission.rhai, or the project's module]
+    /// The submission: a script, a file in Python, a module, or the folder of a project [default: submission.rhai or submission.py, or the project's module]
     #[arg(value_name = "FILE")]
     pub(crate) submission: Option<PathBuf>,
     /// File or folder to write to [default: LAB.kinemark]; an earlier hand-in file there is replaced
