@@ -18,8 +18,19 @@ pub struct Ended {
     pub at: u64,
     /// The reason.
     pub why: EndReason,
-    /// Whether it was in `init`, before the first tick.
-    pub in_init: bool,
+    /// What the submission was doing.
+    pub stage: Stage,
+}
+
+/// What a submission does when it ends early.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    /// Its file is read, and the statements outside of functions run.
+    Reading,
+    /// `init`, before the first tick.
+    Init,
+    /// A call in a tick or a case.
+    Call,
 }
 
 /// Why an attempt ended early.
@@ -82,12 +93,9 @@ impl Ended {
         Self::because(EndReason::Stopped(stop), at)
     }
 
-    /// The submission was stopped before the first tick.
-    pub fn stopped_in_init(stop: Stop) -> Self {
-        Self {
-            in_init: true,
-            ..Self::stopped_by(stop, 0)
-        }
+    /// The same in another stage.
+    pub fn in_stage(self, stage: Stage) -> Self {
+        Self { stage, ..self }
     }
 
     /// It ended at `at` for the reason `why`.
@@ -95,7 +103,7 @@ impl Ended {
         Self {
             at,
             why,
-            in_init: false,
+            stage: Stage::Call,
         }
     }
 
@@ -130,11 +138,15 @@ impl Ended {
         match disclosure {
             Disclosure::HiddenRun { class } => without_place(self.hidden_run_words(), class),
             Disclosure::HiddenCase { class } => without_place(self.hidden_case_words(), class),
+            // no case and no tick has anything to do with it
+            Disclosure::Case { .. } | Disclosure::Run { .. } if self.stage == Stage::Reading => {
+                self.whole_record(source, None)
+            }
             Disclosure::Case { name } => Stopped {
                 case: Some(name.to_owned()),
                 ..self.whole_record(source, None)
             },
-            Disclosure::Run { names, task } if self.in_init => {
+            Disclosure::Run { names, task } if self.stage == Stage::Init => {
                 let record = self.whole_record(source, Some((names, task)));
                 Stopped {
                     message: format!("{} in `init`", record.message),
@@ -345,11 +357,14 @@ fn missing_words(function: &str, namesake: Option<Namesake>) -> String {
 
 fn budget_help(budget: Budget) -> &'static str {
     match budget {
-        Budget::OperationsPerCall
-        | Budget::OperationsPerTask
-        | Budget::InstructionsPerCall
-        | Budget::InstructionsPerTask => {
+        Budget::OperationsPerCall | Budget::OperationsPerTask => {
             "look for a loop that does not end, or for work that can be done once in `init`"
+        }
+        Budget::InstructionsPerCall | Budget::InstructionsPerTask => {
+            "look for a loop that does not end, for a value that grows and grows, or for work that can be done once in `init`"
+        }
+        Budget::InstructionsToRead => {
+            "look for a loop outside of functions that does not end, or make the file shorter"
         }
         Budget::CallDepth => "look for a function that calls itself endlessly",
         Budget::ExpressionDepth => "take the expression apart with `let`",

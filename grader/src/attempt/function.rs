@@ -4,7 +4,7 @@ use kinemark_sim::model::robot::{Joint, Robot};
 
 use super::answers::{Answered, Answers, CaseFacts};
 use super::measure::measure;
-use super::{Attempt, EndReason, Ended};
+use super::{Attempt, EndReason, Ended, Stage};
 use crate::record::grade::LogEntry;
 use crate::submission::answer::NOT_A_NUMBER;
 use crate::submission::controller::{
@@ -141,7 +141,12 @@ impl Calls<'_> {
             // a problem of the whole file or of this machine concerns every case
             _ => MOST_EXHAUSTED,
         };
-        self.stop.get_or_insert(Ended::stopped_by(stop, i as u64));
+        let stage = match self.controller {
+            Some(_) => Stage::Call,
+            None => Stage::Reading,
+        };
+        self.stop
+            .get_or_insert(Ended::stopped_by(stop, i as u64).in_stage(stage));
         let said = self.controller.as_mut().map(|open| open.unanswered());
         Reply::Stopped(said.unwrap_or_default())
     }

@@ -12,4 +12,4 @@ pub mod measure;
 pub mod motion;
 
 pub use attempted::Attempt;
-pub use ended::{Disclosure, EndReason, Ended};
+pub use ended::{Disclosure, EndReason, Ended, Stage};

@@ -14,7 +14,7 @@ use kinemark_sim::watch::event::{Event, EventKind};
 use nalgebra::Matrix3;
 
 use super::function::robot_facts;
-use super::{Attempt, EndReason, Ended};
+use super::{Attempt, EndReason, Ended, Stage};
 use crate::submission::answer;
 use crate::submission::controller::{
     Answer, Call, Controller, Observation, Opening, Reads, RobotFacts, Said, SensorFacts, Stop,
@@ -191,7 +191,10 @@ impl<'a> Session<'a> {
                 None => Run::new(setup),
                 Some(disturbance) => Run::disturbed(setup, disturbance),
             };
-            let run = run.map_err(|error| Stop::GraderFault(error.to_string()))?;
+            let run = run.map_err(|error| {
+                let fault = Stop::GraderFault(error.to_string());
+                Box::new(Ended::stopped_by(fault, 0))
+            })?;
             Ok((controller, run))
         });
         match opened {
@@ -204,11 +207,7 @@ impl<'a> Session<'a> {
                 cut: None,
                 ended: None,
             }),
-            Err(stop) => Err(Box::new(attempt(
-                recorder,
-                output,
-                Some(Ended::stopped_in_init(stop)),
-            ))),
+            Err(ended) => Err(Box::new(attempt(recorder, output, Some(*ended)))),
         }
     }
 
@@ -350,9 +349,10 @@ fn started(
     opening: &Opening,
     host: &mut dyn Host,
     output: &mut Output,
-) -> Result<Box<dyn Controller>, Stop> {
-    let mut controller = host.open(opening)?;
-    ask(controller.as_mut(), &Call::Init, 0, output)?;
+) -> Result<Box<dyn Controller>, Box<Ended>> {
+    let ended = |stage| move |stop| Box::new(Ended::stopped_by(stop, 0).in_stage(stage));
+    let mut controller = host.open(opening).map_err(ended(Stage::Reading))?;
+    ask(controller.as_mut(), &Call::Init, 0, output).map_err(ended(Stage::Init))?;
     Ok(controller)
 }
 

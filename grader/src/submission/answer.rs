@@ -246,7 +246,7 @@ pub(super) fn numbers(value: &Value) -> Option<Vec<f64>> {
 pub fn describe(value: &Value) -> String {
     let text = match value {
         Value::Nothing => {
-            "nothing (does the function end without a value, or with `;`?)".to_owned()
+            "nothing (does the function end without `return`, or with `;`?)".to_owned()
         }
         Value::Text(text) => format!("the string {text:?}"),
         Value::Map(entries) => {

@@ -354,6 +354,8 @@ pub enum Budget {
     InstructionsPerTask,
     /// Bytes of a compiled module.
     ModuleBytes,
+    /// Instructions for reading a file in Python and running the statements outside of functions.
+    InstructionsToRead,
 }
 
 impl Budget {
@@ -371,6 +373,7 @@ impl Budget {
             Self::InstructionsPerCall => "instructions in one call",
             Self::InstructionsPerTask => "instructions in one task",
             Self::ModuleBytes => "bytes of module",
+            Self::InstructionsToRead => "instructions for reading the file",
         }
     }
 }
@@ -425,7 +428,13 @@ impl Budgets {
             .saturating_mul(PYTHON_INSTRUCTIONS_PER_OPERATION)
     }
 
-    /// Instructions of a submission in Python in a whole task.
+    /// Instructions for reading a file in Python, which a call does not have to pay for.
+    pub fn python_instructions_to_read(&self) -> u64 {
+        // a file as large as it may be takes 3,500 million if it has nothing but small functions
+        self.python_instructions_per_call().saturating_mul(100)
+    }
+
+    /// Instructions of a submission in Python in a whole task, without those for reading it.
     pub fn python_instructions_per_task(&self) -> u64 {
         self.operations_per_task
             .saturating_mul(PYTHON_INSTRUCTIONS_PER_OPERATION)

@@ -2,5 +2,5 @@ kept = []
 
 
 def control(observation):
-    kept.append([0.0] * 20_000)
+    kept.append([0.0] * 200_000)
     return observation.q

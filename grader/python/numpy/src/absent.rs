@@ -110,6 +110,25 @@ pub const NUMPY: &[Absent] = &[
     ("sometrue", "use np.any"),
     ("round_", "use np.round"),
     ("row_stack", "use np.vstack"),
+    ("trapz", "use np.trapezoid"),
+    ("rand", "every run is the same"),
+    ("randn", "every run is the same"),
+    ("real", "arrays are real"),
+    ("conj", "arrays are real"),
+    ("conjugate", "arrays are real"),
+    ("number", "use float"),
+    ("fill_diagonal", "use a loop: a[i, i] = x"),
+    ("tri", "use np.tril(np.ones((n, n)))"),
+    ("geomspace", "use np.logspace"),
+    ("broadcast_arrays", "use np.broadcast_to"),
+    ("resize", "use np.reshape or np.tile"),
+    ("polyadd", "use np.polyval, or write the sum"),
+    ("polymul", "use np.convolve"),
+    ("polyder", "write the derivative out"),
+    ("polyint", "write the integral out"),
+    ("nanargmax", "use np.argmax"),
+    ("nanargmin", "use np.argmin"),
+    ("set_string_function", "write f-strings"),
     ("testing", "use assert with np.allclose"),
     ("ma", "use masks: a[a > 0]"),
     ("lib", "only what docs/python.md lists is here"),
@@ -151,7 +170,20 @@ pub fn sentence(module: &str, name: &str, known: &[&str]) -> String {
         );
     }
     let mut sentence = format!("module '{module}' has no attribute '{name}'");
-    if !name.starts_with('_')
+    let elsewhere = match module {
+        "numpy" => Some("numpy.linalg"),
+        "numpy.linalg" | "math" => Some("numpy"),
+        _ => None,
+    };
+    let has = |module: &str| {
+        crate::module::names()
+            .iter()
+            .any(|(known, names)| *known == module && names.contains(&name))
+    };
+    if let Some(other) = elsewhere.filter(|other| has(other)) {
+        let short = other.replace("numpy", "np");
+        sentence.push_str(&format!(". Did you mean: '{short}.{name}'?"));
+    } else if !name.starts_with('_')
         && let Some(near) = nearest(name, known)
     {
         sentence.push_str(&format!(". Did you mean: '{near}'?"));
@@ -169,6 +201,29 @@ pub fn advice(module: &str, name: &str) -> Option<&'static str> {
     };
     let found = absent.iter().find(|(absent, _)| *absent == name);
     found.map(|(_, advice)| *advice)
+}
+
+/// The name that `name` was meant to be: a longer or shorter form of it (`qdot` of `qd`), or one with few changes.
+#[must_use]
+pub fn meant<'names>(name: &str, known: &'names [String]) -> Option<&'names str> {
+    if name.chars().count() > 40 {
+        return None;
+    }
+    let name = name.to_lowercase();
+    let most = (name.chars().count() / 3).max(1);
+    let changes = |known: &&String| {
+        let lower = known.to_lowercase();
+        let is_form = lower.starts_with(&name) || name.starts_with(&lower);
+        match is_form && lower.len().min(name.len()) > 1 {
+            true => 1,
+            false => distance(&name, &lower),
+        }
+    };
+    let ranked = known.iter().map(|known| (changes(&known), known));
+    let found = ranked.filter(|(changes, _)| *changes <= most);
+    found
+        .min_by_key(|(changes, _)| *changes)
+        .map(|(_, known)| known.as_str())
 }
 
 /// The known name with the fewest changes from `name`, if they are few.

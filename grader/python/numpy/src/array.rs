@@ -220,13 +220,17 @@ impl NdArray {
     }
 
     #[pymethod]
-    fn flatten(zelf: &Py<Self>, _args: FuncArgs) -> Self {
-        let size = zelf.view.size();
-        Self::from_view(View::new(
-            zelf.view.dtype(),
-            Shape::vector(size),
-            zelf.view.values(),
-        ))
+    fn flatten(zelf: &Py<Self>, args: FuncArgs, vm: &VirtualMachine) -> PyResult<Self> {
+        let mut arguments = Arguments::new("flatten", args);
+        let order = arguments.optional("order", vm);
+        arguments.finish(vm)?;
+        let view = rearrange::in_order(zelf.view.clone(), order, vm)?;
+        let shape = Shape::vector(view.size());
+        Ok(Self::from_view(View::new(
+            view.dtype(),
+            shape,
+            view.values(),
+        )))
     }
 
     #[pymethod]
@@ -284,11 +288,9 @@ impl NdArray {
             [shape] => shape.clone(),
             lengths => vm.ctx.new_tuple(lengths.to_vec()).into(),
         };
+        let order = arguments.optional("order", vm);
         arguments.finish(vm)?;
-        Ok(convert::object(
-            rearrange::reshaped(&zelf.view, &shape, vm)?,
-            vm,
-        ))
+        rearrange::in_shape(zelf.view.clone(), &shape, order, vm)
     }
 
     #[pymethod]

@@ -322,11 +322,14 @@ pub fn triu(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
 ///
 /// TypeError without a stop, ZeroDivisionError for a step of zero, MemoryError for too many elements.
 pub fn arange(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
-    let first = arguments.optional("start", vm);
-    let second = arguments.optional("stop", vm);
+    let mut first = arguments.optional("start", vm);
+    let mut second = arguments.optional("stop", vm);
+    if first.is_none() {
+        first = second.take();
+    }
     let step = arguments.optional("step", vm);
     let dtype = arguments.optional_dtype("dtype", vm)?;
-    let Some(first) = first.or_else(|| second.clone()) else {
+    let Some(first) = first else {
         return Err(vm.new_type_error("arange() requires stop to be specified."));
     };
     let read = |object: &PyObjectRef| {

@@ -48,7 +48,32 @@ pub fn sequence(object: &PyObject, vm: &VirtualMachine) -> PyResult<Option<Vec<P
         check_count(object.length(vm)?, vm)?;
         return object.to_owned().try_to_value(vm).map(Some);
     }
+    if is_other_sequence(object, vm) {
+        check_count(object.length(vm)?, vm)?;
+        return object.to_owned().try_to_value(vm).map(Some);
+    }
     Ok(None)
+}
+
+/// Whether numpy takes an object apart that is no list, tuple or range: a deque, or one of a class with a length and elements by place.
+fn is_other_sequence(object: &PyObject, vm: &VirtualMachine) -> bool {
+    let no_elements = [
+        vm.ctx.types.str_type,
+        vm.ctx.types.bytes_type,
+        vm.ctx.types.bytearray_type,
+        vm.ctx.types.dict_type,
+        vm.ctx.types.set_type,
+        vm.ctx.types.frozenset_type,
+        vm.ctx.types.type_type,
+    ];
+    let has = |name| object.class().has_attr(vm.ctx.intern_str(name));
+    object.downcast_ref::<NdArray>().is_none()
+        && has("__len__")
+        && has("__getitem__")
+        && !has("keys")
+        && !no_elements
+            .iter()
+            .any(|class| object.fast_isinstance(class))
 }
 
 fn not_a_number(
@@ -159,7 +184,8 @@ pub fn operand(object: &PyObject, vm: &VirtualMachine) -> PyResult<Option<View>>
         || object.downcast_ref::<PyInt>().is_some()
         || object.downcast_ref::<PyList>().is_some()
         || object.downcast_ref::<PyTuple>().is_some()
-        || object.downcast_ref::<PyRange>().is_some();
+        || object.downcast_ref::<PyRange>().is_some()
+        || is_other_sequence(object, vm);
     if suits {
         view_of(object, vm).map(Some)
     } else {

@@ -6,10 +6,10 @@ use crate::fold;
 use crate::ufunc::{self, Binary, Unary};
 use crate::view::View;
 use rustpython_vm::{
-    Py, PyObjectRef, PyPayload, PyRef, PyResult, VirtualMachine,
-    builtins::PyType,
+    Py, PyObject, PyObjectRef, PyPayload, PyRef, PyResult, VirtualMachine,
+    builtins::{PyStr, PyType},
     class::PyClassImpl as _,
-    function::{FuncArgs, KwArgs},
+    function::FuncArgs,
     pyclass,
     types::{Callable, Representable},
 };
@@ -46,7 +46,37 @@ impl Function {
 
     /// Makes the Python class; called once, before the first object.
     pub fn make_type() -> PyRef<PyType> {
-        Self::make_static_type()
+        let class = Self::make_static_type();
+        class.slots().vectorcall.store(Some(called));
+        class
+    }
+
+    fn run(&self, mut arguments: Arguments, vm: &VirtualMachine) -> PyResult {
+        let result = match self.body {
+            Body::Plain(body) => {
+                let result = body(&mut arguments, vm)?;
+                arguments.finish(vm)?;
+                return Ok(result);
+            }
+            Body::Unary(function) => {
+                if let Some(result) = function.of_number(&arguments, vm)? {
+                    return Ok(result);
+                }
+                let operand = arguments.array("x", vm)?;
+                function.apply(&operand, vm)?
+            }
+            Body::Binary(function) => {
+                if let Some(result) = function.of_numbers(&arguments, vm)? {
+                    return Ok(result);
+                }
+                let left = arguments.array("x1", vm)?;
+                let right = arguments.array("x2", vm)?;
+                function.apply(&left, &right, vm)?
+            }
+        };
+        let out = arguments.optional("out", vm);
+        arguments.finish(vm)?;
+        deliver(self.name, result, out, vm)
     }
 }
 
@@ -129,27 +159,37 @@ impl Callable for Function {
     type Args = FuncArgs;
 
     fn call(zelf: &Py<Self>, args: FuncArgs, vm: &VirtualMachine) -> PyResult {
-        let body = match zelf.body {
-            Body::Plain(body) => return call(zelf.name, body, args, vm),
-            Body::Unary(_) | Body::Binary(_) => zelf.body,
-        };
-        let mut arguments = Arguments::new(zelf.name, args);
-        let result = match body {
-            Body::Binary(function) => {
-                let left = arguments.array("x1", vm)?;
-                let right = arguments.array("x2", vm)?;
-                function.apply(&left, &right, vm)?
-            }
-            Body::Unary(function) => {
-                let operand = arguments.array("x", vm)?;
-                function.apply(&operand, vm)?
-            }
-            Body::Plain(_) => unreachable!("called above"),
-        };
-        let out = arguments.optional("out", vm);
-        arguments.finish(vm)?;
-        deliver(zelf.name, result, out, vm)
+        zelf.run(Arguments::new(zelf.name, args), vm)
     }
+}
+
+/// As `Callable::call`, for the arguments as they lie on the interpreter's stack: positional ones, then those with these names.
+fn called(
+    function: &PyObject,
+    mut values: Vec<PyObjectRef>,
+    positional: usize,
+    names: Option<&[PyObjectRef]>,
+    vm: &VirtualMachine,
+) -> PyResult {
+    let Some(function) = function.downcast_ref::<Function>() else {
+        return Err(vm.new_type_error("a function of numpy is called as another object"));
+    };
+    let mut keywords = Vec::new();
+    if let Some(names) = names {
+        let named = values.drain(positional..).zip(names);
+        keywords.extend(named.map(|(value, name)| (name_of(name), value)));
+    }
+    let arguments = Arguments {
+        function: function.name,
+        positional: values.into_iter(),
+        keywords,
+    };
+    function.run(arguments, vm)
+}
+
+fn name_of(name: &PyObject) -> String {
+    let name = name.downcast_ref::<PyStr>();
+    name.map_or_else(String::new, |name| name.to_string_lossy().into_owned())
 }
 
 /// The result as a new object, or in the array that `out=` gives.
@@ -187,25 +227,39 @@ impl Representable for Function {
 pub struct Arguments {
     function: &'static str,
     positional: IntoIter<PyObjectRef>,
-    keywords: KwArgs,
+    keywords: Vec<(String, PyObjectRef)>,
 }
 
 impl Arguments {
     /// The arguments with which `function` was called.
     #[must_use]
     pub fn new(function: &'static str, args: FuncArgs) -> Self {
+        let keywords = args.kwargs.into_iter();
         Self {
             function,
             positional: args.args.into_iter(),
-            keywords: args.kwargs,
+            keywords: keywords
+                .map(|(name, value)| (name.to_string(), value))
+                .collect(),
         }
+    }
+
+    /// The positional arguments that are left, if there are no others.
+    #[must_use]
+    pub fn only_positional(&self) -> Option<&[PyObjectRef]> {
+        self.keywords
+            .is_empty()
+            .then_some(self.positional.as_slice())
+    }
+
+    fn named(&mut self, name: &str) -> Option<PyObjectRef> {
+        let place = self.keywords.iter().position(|(known, _)| known == name)?;
+        Some(self.keywords.remove(place).1)
     }
 
     /// The next positional argument, or the one with this name; `None` when there is neither.
     pub fn next(&mut self, name: &str) -> Option<PyObjectRef> {
-        self.positional
-            .next()
-            .or_else(|| self.keywords.pop_kwarg(name))
+        self.positional.next().or_else(|| self.named(name))
     }
 
     /// As [`Arguments::next`], and Python's None counts as nothing given.
@@ -215,9 +269,7 @@ impl Arguments {
 
     /// The argument that can be given by its name only; Python's None counts as nothing given.
     pub fn keyword(&mut self, name: &str, vm: &VirtualMachine) -> Option<PyObjectRef> {
-        self.keywords
-            .pop_kwarg(name)
-            .filter(|object| !vm.is_none(object))
+        self.named(name).filter(|object| !vm.is_none(object))
     }
 
     /// The next argument, which must be there.
@@ -316,7 +368,7 @@ impl Arguments {
     ///
     /// TypeError when there are any.
     pub fn finish(&mut self, vm: &VirtualMachine) -> PyResult<()> {
-        if let Some(name) = self.keywords.keys().next() {
+        if let Some((name, _)) = self.keywords.first() {
             return Err(vm.new_type_error(format!(
                 "{}() got an unexpected keyword argument '{name}'",
                 self.function

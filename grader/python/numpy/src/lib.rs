@@ -8,6 +8,7 @@
 //! - Arrays have one or two dimensions, and hold float64, int64 or bool; at most [`view::MAX_ELEMENTS`] elements.
 //! - A number out of an array is Python's own float, int or bool. So `a[0] / 0` raises ZeroDivisionError, `~flags.any()` is that of an
 //!   int, an int grows instead of wrapping around, and a number has no `shape`, `dtype` or `item()`.
+//! - `~` of a truth value is the other one, as of numpy's; Python's own is -2 or -1.
 //! - Whole numbers are stored as floats: exact to 2**53.
 //! - An array of one element goes where a float is wanted (`float(a)`, `math.sin(a)`, `b[0] = a`), as in numpy before 2.4.
 //! - An array compares with text as unequal; text, None, complex numbers and objects do not go into arrays: TypeError.

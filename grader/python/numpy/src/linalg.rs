@@ -179,7 +179,9 @@ pub fn pinv(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
 pub fn lstsq(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
     let matrix = two_dimensional(&arguments.array("a", vm)?, vm)?;
     let right = arguments.array("b", vm)?;
+    // below zero it stands for the precision of floats, which is what it is without
     let cut = arguments.optional_float("rcond", vm)?;
+    let cut = cut.filter(|cut| *cut >= 0.0);
     let tall = if right.rank() < 2 {
         right.as_column()
     } else {

@@ -11,8 +11,9 @@ use crate::ufunc::{BINARY, FLOOR_DIVIDE, REMAINDER, UNARY};
 use crate::warnings::{self, ErrorState};
 use crate::{choose, construct, curves, join, linalg, product, rearrange, reduce};
 use rustpython_vm::{
-    AsObject as _, PyObjectRef, PyRef, PyResult, VirtualMachine,
-    builtins::{PyDictRef, PyModule},
+    AsObject as _, Py, PyObject, PyObjectRef, PyRef, PyResult, VirtualMachine,
+    builtins::{PyDictRef, PyModule, PyStr},
+    types::GetAttr as _,
 };
 
 /// The functions of `numpy` that are not elementwise.
@@ -232,30 +233,29 @@ fn issubdtype(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
     Ok(vm.ctx.new_bool(left == right).into())
 }
 
-fn missing(module: &'static str, arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
-    let name = arguments
-        .required("name", vm)?
-        .str(vm)?
-        .to_string_lossy()
-        .into_owned();
+/// The attribute of a module; for a name that one of ours does not have, what to do instead.
+///
+/// Not the modules' `__getattr__`: the interpreter reads an attribute fast where a module has none.
+fn attribute(module: &PyObject, name: &Py<PyStr>, vm: &VirtualMachine) -> PyResult {
+    let Some(module) = module.downcast_ref::<PyModule>() else {
+        return module.generic_getattr(name, vm);
+    };
+    let error = match PyModule::getattro(module, name, vm) {
+        Ok(value) => return Ok(value),
+        Err(error) => error,
+    };
+    let text = name.to_string_lossy();
+    if text.starts_with('_') || !error.fast_isinstance(vm.ctx.exceptions.attribute_error) {
+        return Err(error);
+    }
+    let own = module.dict().get_item_opt("__name__", vm)?;
+    let own = own.as_deref().and_then(|name| name.downcast_ref::<PyStr>());
+    let own = own.map_or_else(String::new, |name| name.to_string());
     let known = names();
-    let known = known
-        .iter()
-        .find(|(known, _)| *known == module)
-        .map_or(&[][..], |(_, names)| names);
-    Err(vm.new_attribute_error(absent::sentence(module, &name, known)))
-}
-
-fn missing_in_numpy(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
-    missing("numpy", arguments, vm)
-}
-
-fn missing_in_linalg(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
-    missing("numpy.linalg", arguments, vm)
-}
-
-fn missing_in_math(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
-    missing("math", arguments, vm)
+    let Some((own, known)) = known.iter().find(|(known, _)| *known == own) else {
+        return Err(error);
+    };
+    Err(vm.new_attribute_error(absent::sentence(own, &text, known)))
 }
 
 /// A module under construction.
@@ -315,17 +315,23 @@ pub fn install(vm: &VirtualMachine) -> PyResult<()> {
     let array: PyObjectRef = NdArray::make_type().into();
     let error_state = ErrorState::make_type();
     let types = errors::types(vm);
+    let module = vm.ctx.types.module_type;
+    module.slots().getattro.store(Some(attribute));
+    // a truth value out of an array is Python's own, and `~np.any(a)` means what it means in numpy; -2 means nothing to anybody
+    let truth = &vm.ctx.types.bool_type.slots().as_number;
+    truth.invert.store(Some(|value, vm| {
+        let is_true = value.obj.is(&vm.ctx.true_value);
+        Ok(vm.ctx.new_bool(!is_true).into())
+    }));
 
     let plain = Filling::new(vm);
     plain.add_functions(math::FUNCTIONS)?;
     plain.add_floats(math::CONSTANTS)?;
-    plain.add_function("__getattr__", Body::Plain(missing_in_math))?;
     plain.finish("math", "The functions of numbers.")?;
 
     let linear = Filling::new(vm);
     linear.add_functions(LINALG)?;
     linear.add("LinAlgError", types.linear_algebra.into())?;
-    linear.add_function("__getattr__", Body::Plain(missing_in_linalg))?;
     let linear = linear.finish("numpy.linalg", "Linear algebra, as numpy has it.")?;
 
     let exceptions = Filling::new(vm);
@@ -384,7 +390,6 @@ pub fn install(vm: &VirtualMachine) -> PyResult<()> {
     numpy.add("__version__", vm.ctx.new_str("2.4.6").into())?;
     // a module with a path is a package: `import numpy.linalg` looks inside
     numpy.add("__path__", vm.ctx.new_list(Vec::new()).into())?;
-    numpy.add_function("__getattr__", Body::Plain(missing_in_numpy))?;
     numpy.finish("numpy", "Arrays of numbers, as numpy has them.")?;
     Ok(())
 }

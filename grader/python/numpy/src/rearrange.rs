@@ -80,7 +80,56 @@ pub fn reshape(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
         Some(shape) => shape,
         None => arguments.required("shape", vm)?,
     };
-    done(reshaped(&view, &shape, vm)?, vm)
+    let order = arguments.optional("order", vm);
+    in_shape(view, &shape, order, vm)
+}
+
+/// The elements in another shape, read and written in this order.
+///
+/// # Errors
+///
+/// As [`reshape`].
+pub fn in_shape(
+    view: View,
+    shape: &PyObjectRef,
+    order: Option<PyObjectRef>,
+    vm: &VirtualMachine,
+) -> PyResult {
+    let plain = reshaped(&view, shape, vm)?;
+    if !is_by_columns(order, vm)? {
+        return done(plain, vm);
+    }
+    // column by column in both: row by row in the transposes
+    let target = plain.shape();
+    let turned = match target.rank() {
+        2 => Shape::matrix(target.columns(), target.rows()),
+        _ => target,
+    };
+    let filled = View::new(view.dtype(), turned, view.transposed().values());
+    done(filled.transposed(), vm)
+}
+
+/// The view whose rows, one after the other, are the elements in this order: `"C"`, row by row, or `"F"`, column by column.
+///
+/// # Errors
+///
+/// ValueError for another order.
+pub fn in_order(view: View, order: Option<PyObjectRef>, vm: &VirtualMachine) -> PyResult<View> {
+    Ok(match is_by_columns(order, vm)? {
+        true => view.transposed(),
+        false => view,
+    })
+}
+
+fn is_by_columns(order: Option<PyObjectRef>, vm: &VirtualMachine) -> PyResult<bool> {
+    let Some(order) = order else {
+        return Ok(false);
+    };
+    match order.str(vm)?.to_string().as_str() {
+        "C" | "A" | "K" => Ok(false),
+        "F" => Ok(true),
+        _ => Err(vm.new_value_error("order must be one of 'C', 'F', 'A', or 'K'")),
+    }
 }
 
 /// `numpy.ravel`.
@@ -90,7 +139,7 @@ pub fn reshape(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
 /// TypeError for what holds no numbers.
 pub fn ravel(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
     let view = arguments.array("a", vm)?;
-    let _ = arguments.optional("order", vm);
+    let view = in_order(view, arguments.optional("order", vm), vm)?;
     done(flat(&view), vm)
 }
 

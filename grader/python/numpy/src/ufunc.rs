@@ -7,6 +7,7 @@ use crate::broadcast;
 use crate::convert;
 use crate::dtype::Dtype;
 use crate::errors;
+use crate::function::Arguments;
 use crate::view::View;
 use rustpython_vm::{PyObject, PyObjectRef, PyResult, VirtualMachine};
 
@@ -73,6 +74,26 @@ impl<F: Copy> Elementwise<F> {
 }
 
 impl Unary {
+    /// The function of one number that is called with nothing else; `None` for other arguments.
+    ///
+    /// # Errors
+    ///
+    /// As [`Unary::apply`].
+    pub fn of_number(
+        &self,
+        arguments: &Arguments,
+        vm: &VirtualMachine,
+    ) -> PyResult<Option<PyObjectRef>> {
+        let Some([operand]) = arguments.only_positional() else {
+            return Ok(None);
+        };
+        let Some((value, dtype)) = convert::number(operand, vm)? else {
+            return Ok(None);
+        };
+        let (dtype, function) = self.select(dtype, vm)?;
+        Ok(Some(convert::element(function(value), dtype, vm)))
+    }
+
     /// The function of every element.
     ///
     /// # Errors
@@ -85,6 +106,32 @@ impl Unary {
 }
 
 impl Binary {
+    /// The function of two numbers that is called with nothing else; `None` for other arguments.
+    ///
+    /// # Errors
+    ///
+    /// As [`Binary::apply`].
+    pub fn of_numbers(
+        &self,
+        arguments: &Arguments,
+        vm: &VirtualMachine,
+    ) -> PyResult<Option<PyObjectRef>> {
+        let Some([left, right]) = arguments.only_positional() else {
+            return Ok(None);
+        };
+        // `apply` looks at exponents before it takes any
+        if self.name == POWER.name {
+            return Ok(None);
+        }
+        let (Some((left, left_dtype)), Some((right, right_dtype))) =
+            (convert::number(left, vm)?, convert::number(right, vm)?)
+        else {
+            return Ok(None);
+        };
+        let (dtype, function) = self.select(left_dtype.max(right_dtype), vm)?;
+        Ok(Some(convert::element(function(left, right), dtype, vm)))
+    }
+
     /// The function of every pair of elements.
     ///
     /// # Errors

@@ -1,10 +1,9 @@
 //! Values between the grader and Python.
 
 use kinemark_python_numpy::NdArray;
+use kinemark_python_numpy::convert::sequence;
 use kinemark_python_wire::{Robot, Value};
-use rustpython_vm::builtins::{
-    PyBaseObject, PyDict, PyDictRef, PyFloat, PyInt, PyList, PyStr, PyTuple, PyTypeRef,
-};
+use rustpython_vm::builtins::{PyBaseObject, PyDict, PyDictRef, PyFloat, PyInt, PyStr, PyTypeRef};
 use rustpython_vm::function::FuncArgs;
 use rustpython_vm::{AsObject, PyObject, PyObjectRef, PyPayload, PyRef, PyResult, VirtualMachine};
 
@@ -32,7 +31,7 @@ pub(crate) fn numbers(value: &PyObject, vm: &VirtualMachine) -> Option<Numbers> 
     if let Some(array) = value.downcast_ref::<NdArray>() {
         return Some(Numbers::Several(array.to_f64()));
     }
-    let elements = elements(value)?;
+    let elements = elements(value, vm)?;
     let all: Option<Vec<f64>> = elements.iter().map(|one| number(one, vm)).collect();
     all.map(Numbers::Several)
 }
@@ -49,13 +48,9 @@ pub(crate) fn number(value: &PyObject, vm: &VirtualMachine) -> Option<f64> {
     None
 }
 
-fn elements(value: &PyObject) -> Option<Vec<PyObjectRef>> {
-    if let Some(list) = value.downcast_ref::<PyList>() {
-        return Some(list.borrow_vec().to_vec());
-    }
-    value
-        .downcast_ref::<PyTuple>()
-        .map(|tuple| tuple.as_slice().to_vec())
+/// The elements of a list, a tuple, or another sequence.
+fn elements(value: &PyObject, vm: &VirtualMachine) -> Option<Vec<PyObjectRef>> {
+    sequence(value, vm).ok().flatten()
 }
 
 /// A value of Python for the grader; none if it has more than `most` values.
@@ -97,9 +92,20 @@ fn converted(
             _ => None,
         };
         let values = array.to_f64();
+        if array.is_bool() {
+            let columns = shape.last().copied().unwrap_or(1).max(1);
+            let list = |row: &[f64]| row.iter().map(|x| Value::Boolean(*x != 0.0)).collect();
+            return Some(Value::List(match rows {
+                None => list(&values),
+                Some(_) => values
+                    .chunks(columns)
+                    .map(|row| Value::List(list(row)))
+                    .collect(),
+            }));
+        }
         return Some(Value::Numbers { rows, values });
     }
-    if let Some(elements) = elements(value) {
+    if let Some(elements) = elements(value, vm) {
         let converted: Option<Vec<Value>> = elements
             .iter()
             .map(|one| converted(one, left, depth + 1, vm))

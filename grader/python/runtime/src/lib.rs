@@ -18,6 +18,11 @@ use rustpython_vm::Interpreter;
 
 use run::Loaded;
 
+// SAFETY: the module has one thread
+#[global_allocator]
+static MEMORY: kinemark_python_pools::Pools<std::alloc::System> =
+    unsafe { kinemark_python_pools::Pools::new(std::alloc::System) };
+
 /// What stays from request to request.
 struct Runtime {
     interpreter: Interpreter,

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use kinemark_python_wire::Reads;
+use kinemark_python_wire::{Reads, Value};
 use rustpython_vm::builtins::{PyDictRef, PyStr, PyType, PyTypeRef};
 use rustpython_vm::class::PyClassImpl as _;
 use rustpython_vm::function::{OptionalArg, PySetterValue};
@@ -14,7 +14,7 @@ use rustpython_vm::{
     atomic_func, pyclass,
 };
 
-use crate::convert::{array, record};
+use crate::convert::{array, from_value, record};
 
 /// The fields, in the order in which they are listed.
 const FIELDS: [&str; 11] = [
@@ -35,7 +35,9 @@ const FIELDS: [&str; 11] = [
 #[derive(Debug)]
 pub(crate) struct Setting {
     pub(crate) task: PyObjectRef,
-    pub(crate) target: PyObjectRef,
+    /// Made anew in each call: what a submission does to it is gone with the observation.
+    pub(crate) target: Value,
+    pub(crate) target_class: PyTypeRef,
     /// The sensors by name, in the order of their readings.
     pub(crate) sensors: Vec<(String, Reads)>,
     /// Joints that move.
@@ -91,6 +93,7 @@ impl Observation {
         let Setting {
             task,
             target,
+            target_class,
             joints,
             ..
         } = &*self.setting;
@@ -106,7 +109,7 @@ impl Observation {
             "effort" => vector(2 * n, n),
             "tcp" => vector(3 * n, 3),
             "tcp_rotation" => array(Some(3), self.numbers(3 * n + 3, 9), vm),
-            "target" => target.clone(),
+            "target" => from_value(target, target_class, vm)?,
             _ => self.sensors(3 * n + 12, vm)?,
         })
     }
@@ -187,7 +190,9 @@ impl Observation {
             );
             return Err(vm.new_attribute_error(words));
         };
-        zelf.made.borrow_mut()[place] = Some(value);
+        // its end can run code of the submission, which may read this observation
+        let replaced = zelf.made.borrow_mut()[place].replace(value);
+        drop(replaced);
         Ok(())
     }
 }
@@ -231,6 +236,16 @@ impl Observation {
     #[pymethod]
     fn copy(zelf: &Py<Self>) -> Self {
         Self::new(Rc::clone(&zelf.setting), zelf.moment.clone())
+    }
+
+    #[pymethod]
+    fn __copy__(zelf: &Py<Self>) -> Self {
+        Self::copy(zelf)
+    }
+
+    #[pymethod]
+    fn __deepcopy__(zelf: &Py<Self>, _memo: PyObjectRef) -> Self {
+        Self::copy(zelf)
     }
 }
 

@@ -57,8 +57,17 @@ fn place_of_statement(code: &Py<PyCode>, instruction: usize) -> Option<Place> {
     next.or(place)
 }
 
+/// What is wrong with a file that cannot be compiled.
+pub(crate) fn not_compiled(error: &PyBaseExceptionRef, vm: &VirtualMachine) -> Reply {
+    reply(error, true, vm)
+}
+
 /// An exception that a submission did not catch.
 pub(crate) fn raised(error: &PyBaseExceptionRef, vm: &VirtualMachine) -> Reply {
+    reply(error, false, vm)
+}
+
+fn reply(error: &PyBaseExceptionRef, is_of_compiler: bool, vm: &VirtualMachine) -> Reply {
     let kind = error.class().name().to_string();
     let attribute = |name: &'static str| error.as_object().get_attr(name, vm).ok();
     let text = |name| {
@@ -66,8 +75,7 @@ pub(crate) fn raised(error: &PyBaseExceptionRef, vm: &VirtualMachine) -> Reply {
         let text = value.downcast_ref::<PyStr>()?;
         Some(text.to_string())
     };
-    let is_syntax = error.fast_isinstance(vm.ctx.exceptions.syntax_error);
-    let message = match is_syntax {
+    let message = match is_of_compiler {
         true => text("msg"),
         false => error.as_object().str(vm).ok().map(|text| text.to_string()),
     };
@@ -82,9 +90,9 @@ pub(crate) fn raised(error: &PyBaseExceptionRef, vm: &VirtualMachine) -> Reply {
         number.try_to_primitive::<u32>(vm).ok()
     };
     let mut at = None;
-    if is_syntax {
+    if is_of_compiler {
         at = number("lineno").map(|line| Place {
-            line,
+            line: line.max(1),
             column: number("offset").unwrap_or(1).max(1),
         });
     }
@@ -97,7 +105,7 @@ pub(crate) fn raised(error: &PyBaseExceptionRef, vm: &VirtualMachine) -> Reply {
         let code = traceback.frame.iframe().code();
         if is_own(code) {
             let instruction = usize::try_from(traceback.lasti).unwrap_or(0) / 2;
-            at = place_in(code, instruction.saturating_sub(0));
+            at = place_in(code, instruction);
             let line = traceback.lineno.get() as u32;
             // what was compiled for another line says less than the line of the traceback
             if at.is_none_or(|at| at.line != line) {
@@ -111,6 +119,7 @@ pub(crate) fn raised(error: &PyBaseExceptionRef, vm: &VirtualMachine) -> Reply {
         message,
         place: at,
         name: text("name"),
+        is_of_compiler,
     }
 }
 

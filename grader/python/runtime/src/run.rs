@@ -5,12 +5,12 @@ use std::rc::Rc;
 use kinemark_python_wire::{Call, Function, Load, Place, Reply};
 use rustpython_vm::builtins::{PyCode, PyDictRef, PyFunction, PyStr};
 use rustpython_vm::compiler::Mode;
-use rustpython_vm::{AsObject, PyObjectRef, PyPayload, PyRef, PyResult, VirtualMachine};
+use rustpython_vm::{AsObject, PyObject, PyObjectRef, PyPayload, PyRef, PyResult, VirtualMachine};
 
 use crate::convert::{from_value, joints, robot, to_value};
 use crate::host;
 use crate::observation::{Moment, Observation, Setting};
-use crate::raised::{raised, set_file};
+use crate::raised::{not_compiled, raised, set_file};
 use crate::start::{Names, end_line};
 
 /// A submission after its module ran.
@@ -25,17 +25,27 @@ pub(crate) struct Loaded {
 pub(crate) fn load(vm: &VirtualMachine, names: &Names, load: Load) -> (Reply, Option<Loaded>) {
     host::set_text_size(load.text_size);
     set_file(&load.file);
-    match loaded(vm, names, load) {
+    // editors of Windows begin a file with a mark of its encoding
+    let source = load.source.trim_start_matches('\u{feff}');
+    let code = match vm.compile(source, Mode::Exec, load.file.clone()) {
+        Ok(code) => code,
+        Err(error) => {
+            let error = error.into_pyexception(vm, Some(source));
+            return (not_compiled(&error, vm), None);
+        }
+    };
+    match loaded(vm, names, load, code) {
         Ok((reply, loaded)) => (reply, Some(loaded)),
         Err(error) => (raised(&error, vm), None),
     }
 }
 
-fn loaded(vm: &VirtualMachine, names: &Names, load: Load) -> PyResult<(Reply, Loaded)> {
-    let source = load.source.as_str();
-    let code = vm
-        .compile(source, Mode::Exec, load.file)
-        .map_err(|error| error.into_pyexception(vm, Some(source)))?;
+fn loaded(
+    vm: &VirtualMachine,
+    names: &Names,
+    load: Load,
+    code: PyRef<PyCode>,
+) -> PyResult<(Reply, Loaded)> {
     let scope = vm.new_scope_with_builtins();
     let globals = scope.globals.clone();
     globals.set_item("__name__", vm.ctx.new_str("submission").into(), vm)?;
@@ -52,7 +62,8 @@ fn loaded(vm: &VirtualMachine, names: &Names, load: Load) -> PyResult<(Reply, Lo
     let robot = robot(&load.robot, names, vm)?;
     let setting = Setting {
         task: vm.ctx.new_str(load.task).into(),
-        target: from_value(&load.target, &names.target, vm)?,
+        target: load.target,
+        target_class: names.target.clone(),
         joints: joints(&load.robot),
         sensors: load.sensors,
         sensors_class: names.sensors.clone(),
@@ -72,7 +83,20 @@ fn function(name: String, value: &PyObjectRef, vm: &VirtualMachine) -> Option<Fu
     if !value.is_callable() || name.starts_with("__") {
         return None;
     }
-    let Some(defined) = value.downcast_ref::<PyFunction>() else {
+    // of a method, and of an object that can be called, the first parameter is given
+    let attribute = |of: &PyObject, name: &'static str| of.get_attr(name, vm).ok();
+    let mut given = 0;
+    let mut defined = value.clone();
+    for name in ["__call__", "__func__"] {
+        if defined.downcast_ref::<PyFunction>().is_none()
+            && let Some(inner) = attribute(&defined, name)
+            && (name == "__func__" || attribute(&inner, "__func__").is_some())
+        {
+            given = 1;
+            defined = inner;
+        }
+    }
+    let Some(defined) = defined.downcast_ref::<PyFunction>() else {
         let parameters = (0, None);
         let place = None;
         return Some(Function {
@@ -89,7 +113,7 @@ fn function(name: String, value: &PyObjectRef, vm: &VirtualMachine) -> Option<Fu
         .ok()?;
     let defaults = defined.as_object().get_attr("__defaults__", vm).ok()?;
     let defaults = defaults.length(vm).unwrap_or(0) as u32;
-    let most = code.code.arg_count;
+    let most = code.code.arg_count.saturating_sub(given);
     let takes_any = code
         .code
         .flags

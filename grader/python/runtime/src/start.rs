@@ -2,9 +2,9 @@
 
 use kinemark_python_numpy as numpy;
 use rustpython_vm::builtins::{PyBaseExceptionRef, PyDictRef, PyStr, PyTypeRef};
-use rustpython_vm::function::{FuncArgs, KwArgs, PosArgs};
+use rustpython_vm::function::{ArgIterable, FuncArgs, KwArgs, PosArgs};
 use rustpython_vm::{
-    AsObject, Interpreter, Py, PyObject, PyObjectRef, PyResult, Settings, VirtualMachine,
+    AsObject, FromArgs, Interpreter, Py, PyObject, PyObjectRef, PyResult, Settings, VirtualMachine,
 };
 
 use crate::convert::{Numbers, array, numbers};
@@ -20,6 +20,17 @@ pub(crate) struct Names {
     /// Says that a record has no such field: a function of its kind, its fields and the name.
     pub(crate) no_field: PyObjectRef,
 }
+
+/// What submissions find besides Python's own, in one namespace: each part uses those before it, and the last one starts.
+const PRELUDE: [&str; 7] = [
+    include_str!("prelude/records.py"),
+    include_str!("prelude/annotations.py"),
+    include_str!("prelude/containers.py"),
+    include_str!("prelude/dataclass.py"),
+    include_str!("prelude/enumeration.py"),
+    include_str!("prelude/functions.py"),
+    include_str!("prelude/imports.py"),
+];
 
 /// How deep Python functions may call each other.
 const DEEPEST: usize = 200;
@@ -51,17 +62,22 @@ fn words(vm: &VirtualMachine, error: &PyBaseExceptionRef) -> String {
 fn prelude(vm: &VirtualMachine) -> PyResult<Names> {
     numpy::install(vm)?;
     vm.recursion_limit.set(DEEPEST);
+    forbid_bytecode(vm)?;
     let builtins = vm.builtins.as_object();
     builtins.set_attr("print", vm.new_function("print", print), vm)?;
     let plot = vm.new_function("plot", plot);
     builtins.set_attr("plot", plot.clone(), vm)?;
 
     let scope = vm.new_scope_with_builtins();
-    vm.run_string(scope.clone(), include_str!("prelude.py"), "kinemark")?;
+    for part in PRELUDE {
+        vm.run_string(scope.clone(), part, "kinemark")?;
+    }
     let own = vm.new_module("kinemark", vm.ctx.new_dict(), None);
     own.as_object().set_attr("plot", plot, vm)?;
     own.as_object()
         .set_attr("Observation", Observation::make_type(), vm)?;
+    let near = vm.new_function("_nearest", nearest_name);
+    scope.globals.set_item("_nearest", near.into(), vm)?;
     for (name, of) in [
         ("quintic", quintic as fn(f64) -> f64),
         ("quintic_rate", quintic_rate),
@@ -77,7 +93,13 @@ fn prelude(vm: &VirtualMachine) -> PyResult<Names> {
         .get_attr("modules", vm)?
         .downcast()
         .map_err(|_| vm.new_type_error("sys.modules is no dict"))?;
-    for name in ["math", "numpy", "numpy.linalg"] {
+    for name in [
+        "math",
+        "numpy",
+        "numpy.linalg",
+        "numpy.typing",
+        "numpy.exceptions",
+    ] {
         native.set_item(name, modules.get_item(name, vm)?, vm)?;
     }
     scope.globals.get_item("_start", vm)?.call((native,), vm)?;
@@ -96,6 +118,49 @@ fn prelude(vm: &VirtualMachine) -> PyResult<Names> {
         given: class("Given")?,
         no_field: scope.globals.get_item("_no_field", vm)?,
     })
+}
+
+/// No function can be made of instructions that the compiler did not write: the interpreter trusts them.
+fn forbid_bytecode(vm: &VirtualMachine) -> PyResult<()> {
+    let refused = |name: &'static str| {
+        vm.new_function(name, |_: FuncArgs, vm: &VirtualMachine| -> PyResult {
+            Err(vm.new_type_error("code objects are not made or changed here"))
+        })
+    };
+    let code = vm.ctx.types.code_type;
+    code.slots().new.store(Some(|_, _, vm| {
+        Err(vm.new_type_error("code objects are not made or changed here"))
+    }));
+    for name in ["replace", "__replace__", "__new__"] {
+        code.set_attr(vm.ctx.intern_str(name), refused(name).into());
+    }
+    let function = vm.ctx.types.function_type;
+    let name = vm.ctx.intern_str("__code__");
+    if let Some(original) = function.get_attr(name) {
+        // reads it as before, and has nothing that writes it
+        let read = original.get_attr("__get__", vm)?;
+        let readable = vm.ctx.types.property_type.as_object().call((read,), vm)?;
+        function.set_attr(name, readable);
+    }
+    Ok(())
+}
+
+/// The one of the names that a name was meant to be, or None.
+fn nearest_name(
+    name: PyObjectRef,
+    names: ArgIterable<PyObjectRef>,
+    vm: &VirtualMachine,
+) -> PyResult<Option<String>> {
+    let Some(name) = name.downcast_ref::<PyStr>() else {
+        return Ok(None);
+    };
+    let mut known = Vec::new();
+    for one in names.iter(vm)? {
+        if let Some(one) = one?.downcast_ref::<PyStr>() {
+            known.push(one.to_string());
+        }
+    }
+    Ok(numpy::absent::meant(&name.to_string(), &known).map(str::to_owned))
 }
 
 /// An attribute of a record: a field of it in most cases, which are looked up first.
@@ -205,12 +270,21 @@ pub(crate) fn end_line() {
     });
 }
 
+/// The arguments of `plot`.
+#[derive(FromArgs)]
+struct Plotted {
+    #[pyarg(any)]
+    name: PyObjectRef,
+    #[pyarg(any)]
+    value: PyObjectRef,
+}
+
 /// `plot(name, value)`: a number, or numbers, each of which is a signal of its own.
-fn plot(name: PyObjectRef, value: PyObjectRef, vm: &VirtualMachine) -> PyResult<()> {
+fn plot(Plotted { name, value }: Plotted, vm: &VirtualMachine) -> PyResult<()> {
     let name = name.str(vm)?.to_string();
     let count = name.chars().count();
-    if count == 0 || count > 60 {
-        return Err(vm.new_value_error("the name of a signal has 1 to 60 characters"));
+    if count == 0 || count > 64 {
+        return Err(vm.new_value_error("the name of a signal has 1 to 64 characters"));
     }
     let Some(numbers) = numbers(&value, vm) else {
         let kind = value.class().name().to_string();

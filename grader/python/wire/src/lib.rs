@@ -140,6 +140,8 @@ pub enum Reply {
         place: Option<Place>,
         /// The name that was looked for, where it was one.
         name: Option<String>,
+        /// Whether the file could not be compiled, so that nothing of it ran.
+        is_of_compiler: bool,
     },
 }
 

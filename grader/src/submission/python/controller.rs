@@ -95,16 +95,14 @@ impl PythonController {
             most_values: u32::try_from(self.budgets.list_size).unwrap_or(u32::MAX),
             text_size: u32::try_from(self.budgets.text_size).unwrap_or(u32::MAX),
         };
-        let allowed = self.allowed();
+        let allowed = self.budgets.python_instructions_to_read();
         self.loaded.refuel(allowed);
         let reply = self.loaded.load(&load);
-        let left = self.loaded.fuel();
-        self.spent += allowed - left.min(allowed);
         let stopped = match &reply {
             Err(_) => self.loaded.stopped(),
             Ok(_) => None,
         };
-        match self.finished(allowed, reply, stopped)? {
+        match self.finished(Budget::InstructionsToRead, allowed, reply, stopped)? {
             Reply::Loaded(functions) => {
                 self.functions = functions;
                 Ok(())
@@ -113,10 +111,14 @@ impl PythonController {
         }
     }
 
-    /// How many instructions the next call may use.
-    fn allowed(&self) -> u64 {
+    /// How many instructions the next call may use, and the budget that this is.
+    fn allowed(&self) -> (Budget, u64) {
+        let per_call = self.budgets.python_instructions_per_call();
         let left = self.budgets.python_instructions_per_task() - self.spent;
-        left.min(self.budgets.python_instructions_per_call())
+        match left < per_call {
+            true => (Budget::InstructionsPerTask, left),
+            false => (Budget::InstructionsPerCall, per_call),
+        }
     }
 
     /// Calls in the instance of the run.
@@ -156,9 +158,10 @@ impl PythonController {
         Ok((reply, left))
     }
 
-    /// The reply to a request that could use `allowed` instructions, or the stop that it ended with.
+    /// The reply to a request that could use `allowed` instructions of `budget`, or the stop that it ended with.
     fn finished(
         &self,
+        budget: Budget,
         allowed: u64,
         reply: Result<Reply, Trouble>,
         stopped: Option<kinemark_python_wire::Stopped>,
@@ -169,7 +172,11 @@ impl PythonController {
             Err(Trouble::Ended(error)) => error,
         };
         let (at, function, panic) = match stopped {
-            Some(stopped) => (stopped.place.map(place), stopped.function, stopped.panic),
+            Some(stopped) => (
+                stopped.place.map(|at| self.place(at)),
+                stopped.function,
+                stopped.panic,
+            ),
             None => (None, None, None),
         };
         let over = |budget, limit| Stop::OverBudget {
@@ -194,13 +201,12 @@ impl PythonController {
             None => {}
         }
         Err(match error.as_trap_code() {
-            Some(TrapCode::OutOfFuel) if allowed < budgets.python_instructions_per_call() => over(
-                Budget::InstructionsPerTask,
-                budgets.python_instructions_per_task(),
-            ),
             Some(TrapCode::OutOfFuel) => over(
-                Budget::InstructionsPerCall,
-                budgets.python_instructions_per_call(),
+                budget,
+                match budget {
+                    Budget::InstructionsPerTask => budgets.python_instructions_per_task(),
+                    _ => allowed,
+                },
             ),
             Some(TrapCode::GrowthOperationLimited) => crashed(
                 &format!("MemoryError: more than {} MiB are used", MEMORY_BYTES >> 20),
@@ -238,28 +244,57 @@ impl PythonController {
             message,
             place: at,
             name,
+            is_of_compiler,
         } = reply
         else {
             return Stop::GraderFault("the runtime of Python gave another reply".to_owned());
         };
-        let is_syntax = matches!(
-            kind.as_str(),
-            "SyntaxError" | "IndentationError" | "TabError"
-        );
-        let line = at.and_then(|at| self.source.lines().nth(at.line as usize - 1));
+        let line = at.and_then(|at| self.line(at));
         let mistake = Mistake {
-            help: hints::help(&kind, &message, name.as_deref(), line.unwrap_or_default()),
+            help: hints::help(
+                &kind,
+                &message,
+                name.as_deref(),
+                line.unwrap_or_default(),
+                &self.source,
+            ),
             message: match message.is_empty() {
                 true => kind,
                 false => format!("{kind}: {message}"),
             },
-            place: at.map(place),
+            place: at.map(|at| match is_of_compiler {
+                // the compiler counts characters itself
+                true => SourcePosition {
+                    line: at.line as usize,
+                    column: at.column as usize,
+                },
+                false => self.place(at),
+            }),
             further: Vec::new(),
         };
-        match is_syntax {
+        match is_of_compiler {
             true => Stop::DidNotBuild(mistake),
             false => Stop::Crashed(mistake),
         }
+    }
+
+    fn line(&self, at: Place) -> Option<&str> {
+        let line = (at.line as usize).checked_sub(1)?;
+        self.source.lines().nth(line)
+    }
+
+    /// A place of the runtime, whose columns count bytes, for people, who count characters.
+    fn place(&self, at: Place) -> SourcePosition {
+        let line = at.line as usize;
+        let bytes = (at.column as usize).saturating_sub(1);
+        let column = match self.line(at) {
+            Some(text) => {
+                let before = text.char_indices().take_while(|(begin, _)| *begin < bytes);
+                before.count() + bytes.saturating_sub(text.len()) + 1
+            }
+            None => bytes + 1,
+        };
+        SourcePosition { line, column }
     }
 
     /// The parameters of a function that the grader calls.
@@ -286,7 +321,7 @@ impl PythonController {
             namesake = Some(Namesake {
                 parameters: most.unwrap_or(least) as usize,
                 wanted,
-                place: defined.place.map(place),
+                place: defined.place.map(|at| self.place(at)),
             });
         } else if name == "init" || (name == "control" && self.has("init")) {
             // a controller may be made by `init`
@@ -303,7 +338,17 @@ impl PythonController {
         let parameters = self.parameters_of(name);
         let head = format!("def {name}({}):", parameters.join(", "));
         let known = self.functions.iter().map(|known| known.name.as_str());
+        let inside = |line: &str| {
+            let text = line.trim_start();
+            let named = text
+                .strip_prefix("def ")
+                .and_then(|rest| rest.strip_prefix(name));
+            text.len() < line.len() && named.is_some_and(|rest| rest.trim_start().starts_with('('))
+        };
         let help = match nearest(name, known).filter(|near| *near != name) {
+            None if self.source.lines().any(inside) => format!(
+                "`def {name}` stands inside of another function or a class: write it at the beginning of a line, or give it a global name there"
+            ),
             Some(near) => format!("did you mean `{near}`? Write {head}"),
             None => format!("write {head}"),
         };
@@ -323,7 +368,7 @@ impl Controller for PythonController {
         if let (Some(model), Some(facts)) = (&self.model, call.robot()) {
             model.is_now(facts)?;
         }
-        let allowed = self.allowed();
+        let (budget, allowed) = self.allowed();
         let is_of_run = matches!(call, Call::Init | Call::Control(_));
         let (reply, left) = match is_of_run {
             true => self.in_run(call, allowed),
@@ -337,17 +382,21 @@ impl Controller for PythonController {
             // an instance that was stopped is as nobody knows
             (Err(_), false) => self.case.take().and_then(|mut case| case.stopped()),
         };
-        let value = match self.finished(allowed, reply, stopped)? {
+        let value = match self.finished(budget, allowed, reply, stopped)? {
             Reply::Returned(value) => convert::from_wire(value),
             Reply::Missing if matches!(call, Call::Init) => Value::Nothing,
             Reply::Missing => return Err(self.is_missing(call.name(), None)),
             Reply::TooMany => {
-                return Err(Stop::OverBudget {
-                    budget: Budget::ListSize,
-                    limit: self.budgets.list_size,
+                return Err(Stop::Crashed(Mistake {
+                    message: format!(
+                        "`{}` returned more than {} values",
+                        call.name(),
+                        self.budgets.list_size
+                    ),
                     place: None,
-                    function: Some(call.name().to_owned()),
-                });
+                    help: Some("return what the brief asks for, and nothing else".to_owned()),
+                    further: Vec::new(),
+                }));
             }
             raised => return Err(self.raised(raised)),
         };
@@ -376,12 +425,5 @@ fn state(
         model: model.cloned(),
         grants: grants.to_vec(),
         text_size: budgets.text_size,
-    }
-}
-
-fn place(place: Place) -> SourcePosition {
-    SourcePosition {
-        line: place.line as usize,
-        column: place.column as usize,
     }
 }

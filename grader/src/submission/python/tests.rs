@@ -2,7 +2,7 @@
 
 use super::PythonController;
 use crate::submission::controller::{
-    Answer, AskedFunction, Budget, Budgets, Call, Controller, Observation, Opening, Reads,
+    Answer, AskedFunction, Budget, Budgets, Call, Controller, Mistake, Observation, Opening, Reads,
     RobotFacts, SensorFacts, SourcePosition, Stop, Value,
 };
 use crate::submission::handed_in::Program;
@@ -538,4 +538,186 @@ fn nothing_varies_from_start_to_start() {
     let source = "def control(observation):\n    names = {'b', 'a', 'c', 'd'}\n    return [hash('kinemark') % 1000, id(names) % 1000, *[ord(name) for name in names]]\n";
     let first = control(source).expect("an answer");
     assert_eq!(first, control(source).expect("an answer"));
+}
+
+/// Programs without arrays print what Python 3.11 prints: `.ci/full runtime` runs them with the one of the machine.
+#[test]
+fn programs_print_what_python_prints() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/python/runtime/programs");
+    let mut programs: Vec<_> = std::fs::read_dir(folder)
+        .expect("the programs")
+        .map(|entry| entry.expect("an entry").path())
+        .filter(|path| path.extension().is_some_and(|extension| extension == "py"))
+        .collect();
+    programs.sort();
+    assert!(programs.len() > 10);
+    for path in programs {
+        let source = std::fs::read_to_string(&path).expect("a program");
+        let expected = std::fs::read_to_string(path.with_extension("out")).expect("its output");
+        let mut opened = match PythonController::open(&opening(&source)) {
+            Ok(opened) => opened,
+            Err(stop) => panic!("{}: {stop:?}", path.display()),
+        };
+        let printed = opened.unanswered().log.into_iter();
+        let printed: Vec<String> = printed.map(|line| line.text).collect();
+        let expected: Vec<&str> = expected.lines().collect();
+        assert_eq!(printed, expected, "{}", path.display());
+    }
+}
+
+/// The exception that ends `control` of a file.
+fn crash(source: &str) -> Mistake {
+    match control(source) {
+        Err(Stop::Crashed(mistake)) => mistake,
+        other => panic!("{source}: {other:?}"),
+    }
+}
+
+#[test]
+fn a_large_file_can_be_read() {
+    let mut source = String::new();
+    let mut i = 0;
+    while source.len() < 60_000 {
+        i += 1;
+        source.push_str(&format!(
+            "def f{i}(x, y):\n    a = [x * k for k in range(3)]\n    return a[0] + y ** 2 - {i}.5\n\n"
+        ));
+    }
+    source.push_str("def control(observation):\n    return f1(1.0, 2.0)\n");
+    let answer = control(&source).expect("an answer");
+    assert_eq!(answer.value, Value::Number(2.5));
+}
+
+#[test]
+fn a_file_may_begin_with_a_mark_of_its_encoding() {
+    let answer = control("\u{feff}def control(observation):\n    return 1.0\n").expect("an answer");
+    assert_eq!(answer.value, Value::Number(1.0));
+}
+
+#[test]
+fn columns_count_characters() {
+    let source = "def control(observation):\n    print(\"Größe\"); return observation.q[7]\n";
+    assert_eq!(
+        crash(source).place,
+        Some(SourcePosition {
+            line: 2,
+            column: 28
+        })
+    );
+}
+
+#[test]
+fn what_is_done_to_the_target_is_gone_at_the_next_call() {
+    let source = "def control(observation):\n    observation.target.speed += 1\n    return observation.target.speed\n";
+    let mut opened = open(source);
+    for _ in 0..3 {
+        let answer = opened
+            .call(&Call::Control(observation()))
+            .expect("an answer");
+        assert_eq!(answer.value, Value::Number(1.25));
+    }
+}
+
+#[test]
+fn a_forgotten_global_is_named() {
+    let help = |source: &str| crash(source).help.unwrap_or_default();
+    let none = "state = None\ndef start():\n    state = [1]\ndef control(observation):\n    start()\n    return state[0]\n";
+    assert!(
+        help(none).contains("write `global state`"),
+        "{}",
+        help(none)
+    );
+    let unknown =
+        "def start():\n    best = 1\ndef control(observation):\n    start()\n    return best\n";
+    assert!(
+        help(unknown).contains("write `global best`"),
+        "{}",
+        help(unknown)
+    );
+    let right = "state = None\ndef start():\n    global state\n    state = 1\ndef control(observation):\n    return state[0]\n";
+    assert!(!help(right).contains("global"), "{}", help(right));
+}
+
+#[test]
+fn an_error_that_imitates_the_compiler_is_a_crash() {
+    for error in [
+        "SyntaxError('m', ('f.py', 0, 0, None))",
+        "SyntaxError('m', ('f.py', 10**9, -5, None))",
+        "type('SyntaxError', (Exception,), {})('m')",
+    ] {
+        let mistake = crash(&format!("def control(observation):\n    raise {error}\n"));
+        assert_eq!(mistake.place.map(|place| place.line), Some(2), "{error}");
+    }
+}
+
+#[test]
+fn an_exception_that_nobody_can_catch_is_printed() {
+    let source = "class Log:\n    def __del__(self):\n        print(self.missing)\ndef control(observation):\n    Log()\n    return 1.0\n";
+    let answer = control(source).expect("an answer");
+    assert!(
+        answer.said.log[0].text.starts_with("Exception ignored in "),
+        "{:?}",
+        answer.said.log
+    );
+}
+
+#[test]
+fn no_function_is_made_of_bytes() {
+    for line in [
+        "f.__code__ = (lambda: 1).__code__",
+        "f.__code__.replace(co_code=b'')",
+        "type(f.__code__)()",
+    ] {
+        let source = format!(
+            "def f():\n    return 1\ndef control(observation):\n    {line}\n    return 1.0\n"
+        );
+        let message = crash(&source).message;
+        assert!(
+            message.starts_with("TypeError") || message.starts_with("AttributeError"),
+            "{message}"
+        );
+    }
+}
+
+#[test]
+fn arrays_are_made_of_what_has_elements() {
+    for (expression, wanted) in [
+        (
+            "np.mean(deque([[1.0, 3.0], [3.0, 5.0]], maxlen=5), axis=0)",
+            list(&[2.0, 4.0]),
+        ),
+        ("deque([1.0, 2.0])", list(&[1.0, 2.0])),
+        ("np.ones(2) + Point(1.0, 2.0)", list(&[2.0, 3.0])),
+        (
+            "np.ravel([[1, 2], [3, 4]], order='F')",
+            list(&[1.0, 3.0, 2.0, 4.0]),
+        ),
+        (
+            "np.arange(6).reshape((2, 3), order='F')[1]",
+            list(&[1.0, 3.0, 5.0]),
+        ),
+        ("np.arange(stop=3)", list(&[0.0, 1.0, 2.0])),
+        ("1.0 if ~np.any([False]) else 2.0", Value::Number(1.0)),
+        (
+            "np.linalg.lstsq([[1.0, 1], [1, 1]], [2.0, 2], rcond=-1)[0]",
+            list(&[1.0, 1.0]),
+        ),
+    ] {
+        let source = format!(
+            "import numpy as np\nfrom collections import deque, namedtuple\nPoint = namedtuple('Point', 'x y')\ndef control(observation):\n    return {expression}\n"
+        );
+        match control(&source) {
+            Ok(answer) => assert_eq!(rounded(answer.value), wanted, "{expression}"),
+            Err(stop) => panic!("{expression}: {stop:?}"),
+        }
+    }
+}
+
+/// The value with its numbers to twelve digits.
+fn rounded(value: Value) -> Value {
+    match value {
+        Value::Number(number) => Value::Number((number * 1e12).round() / 1e12),
+        Value::List(items) => Value::List(items.into_iter().map(rounded).collect()),
+        other => other,
+    }
 }

@@ -247,6 +247,7 @@ impl Meter {
             Budget::InstructionsPerCall => budgets.instructions_per_call,
             Budget::InstructionsPerTask => budgets.instructions_per_task,
             Budget::ModuleBytes => budgets.module_bytes,
+            Budget::InstructionsToRead => budgets.python_instructions_to_read(),
         }
     }
 
