@@ -4,6 +4,7 @@ use crate::convert;
 use crate::dtype::Dtype;
 use crate::errors;
 use crate::function::Arguments;
+use crate::join;
 use crate::reduce;
 use crate::ufunc;
 use crate::view::{Shape, View};
@@ -17,11 +18,13 @@ fn done(view: View, vm: &VirtualMachine) -> PyResult {
 ///
 /// # Errors
 ///
-/// AxisError for an axis that is not there, ValueError for a number and for a negative order.
+/// AxisError for an axis that is not there, ValueError for a number, for a negative order and for a `prepend` or `append` of another shape.
 pub fn diff(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
     let mut view = arguments.array("a", vm)?;
     let times = arguments.optional_integer("n", vm)?.unwrap_or(1);
     let axis = arguments.optional_integer("axis", vm)?.unwrap_or(-1);
+    let before = arguments.optional_array("prepend", vm)?;
+    let after = arguments.optional_array("append", vm)?;
     if times < 0 {
         return Err(vm.new_value_error(format!("order must be non-negative but got {times}")));
     }
@@ -29,6 +32,9 @@ pub fn diff(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
         return Err(vm.new_value_error("diff requires input that is at least one dimensional"));
     }
     let axis = errors::checked_axis(axis, view.rank(), vm)?;
+    if times > 0 && (before.is_some() || after.is_some()) {
+        view = join::between(before, view, after, axis, vm)?;
+    }
     for _ in 0..times {
         view = reduce::lanes(&view, axis, view.dtype(), |lane| {
             let pairs = lane.windows(2);
@@ -132,18 +138,32 @@ fn even_gradient(samples: &[f64], step: f64) -> Vec<f64> {
 ///
 /// # Errors
 ///
-/// ValueError for no samples, or places and samples of different number.
+/// ValueError for no samples, places and samples of different number, or a period of 0.
 pub fn interp(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
-    let wanted = arguments.array("x", vm)?;
-    let places = arguments.array("xp", vm)?.values();
-    let samples = arguments.array("fp", vm)?.values();
+    let mut wanted = arguments.array("x", vm)?;
+    let mut places = arguments.array("xp", vm)?.values();
+    let mut samples = arguments.array("fp", vm)?.values();
     let left = arguments.optional_float("left", vm)?;
     let right = arguments.optional_float("right", vm)?;
+    let period = arguments.optional_float("period", vm)?;
+    // around a circle nothing is left or right of the samples
+    let (left, right) = match period {
+        Some(_) => (None, None),
+        None => (left, right),
+    };
     if places.is_empty() {
         return Err(vm.new_value_error("array of sample points is empty"));
     }
     if places.len() != samples.len() {
         return Err(vm.new_value_error("fp and xp are not of the same length."));
+    }
+    if let Some(period) = period {
+        if period == 0.0 {
+            return Err(vm.new_value_error("period must be a non-zero value"));
+        }
+        let period = period.abs();
+        wanted = crate::broadcast::map(&wanted, Dtype::Float, |value| within(value, period));
+        (places, samples) = around(&places, &samples, period);
     }
     let last = places.len() - 1;
     let each = |value: f64| {
@@ -166,6 +186,24 @@ pub fn interp(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
         slope * (value - places[place]) + samples[place]
     };
     done(crate::broadcast::map(&wanted, Dtype::Float, each), vm)
+}
+
+/// `value` moved by whole periods to where `0 <= value < period`.
+fn within(value: f64, period: f64) -> f64 {
+    let rest = libm::fmod(value, period);
+    if rest < 0.0 { rest + period } else { rest }
+}
+
+/// The samples in the order of their places within the period, with the last one before them and the first one after them.
+fn around(places: &[f64], samples: &[f64], period: f64) -> (Vec<f64>, Vec<f64>) {
+    let moved = places.iter().map(|place| within(*place, period));
+    let mut pairs: Vec<(f64, f64)> = moved.zip(samples.iter().copied()).collect();
+    pairs.sort_by(|left, right| left.0.total_cmp(&right.0));
+    if let (Some(first), Some(last)) = (pairs.first().copied(), pairs.last().copied()) {
+        pairs.insert(0, (last.0 - period, last.1));
+        pairs.push((first.0 + period, first.1));
+    }
+    pairs.into_iter().unzip()
 }
 
 /// `numpy.unwrap`: jumps of more than half a period are taken out.

@@ -95,6 +95,34 @@ fn concatenated(views: &[View], axis: isize, vm: &VirtualMachine) -> PyResult<Vi
     Ok(View::new(kind_of(views), shape, values))
 }
 
+/// `view` with what goes before and after it along `axis`; a number is one layer of it.
+///
+/// # Errors
+///
+/// ValueError for shapes that do not go together.
+pub(crate) fn between(
+    before: Option<View>,
+    view: View,
+    after: Option<View>,
+    axis: usize,
+    vm: &VirtualMachine,
+) -> PyResult<View> {
+    let shape = match (view.rank(), axis) {
+        (2, 0) => Shape::matrix(1, view.columns()),
+        (2, _) => Shape::matrix(view.rows(), 1),
+        _ => Shape::vector(1),
+    };
+    let layer = |part: View| match part.rank() {
+        0 => View::new(part.dtype(), shape, vec![part.at(0, 0); shape.size()]),
+        _ => part,
+    };
+    let views: Vec<View> = [before.map(layer), Some(view), after.map(layer)]
+        .into_iter()
+        .flatten()
+        .collect();
+    concatenated(&views, if axis == 0 { 0 } else { -1 }, vm)
+}
+
 /// `numpy.concatenate`.
 ///
 /// # Errors

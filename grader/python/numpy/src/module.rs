@@ -15,6 +15,7 @@ use rustpython_vm::{
     builtins::{PyDictRef, PyModule, PyStr},
     types::GetAttr as _,
 };
+use std::sync::LazyLock;
 
 /// The functions of `numpy` that are not elementwise.
 const NUMPY: &[(&str, Plain)] = &[
@@ -185,9 +186,16 @@ const OTHERS: &[&str] = &[
     "False_",
 ];
 
+/// The public names of each module.
+static NAMES: LazyLock<Vec<(&'static str, Vec<&'static str>)>> = LazyLock::new(listed);
+
 /// Every public name, by module: what the documentation lists is checked against this.
 #[must_use]
-pub fn names() -> Vec<(&'static str, Vec<&'static str>)> {
+pub fn names() -> &'static [(&'static str, Vec<&'static str>)] {
+    &NAMES
+}
+
+fn listed() -> Vec<(&'static str, Vec<&'static str>)> {
     let elementwise = UNARY
         .iter()
         .map(|function| (function.name, function.aliases))
@@ -251,8 +259,7 @@ fn attribute(module: &PyObject, name: &Py<PyStr>, vm: &VirtualMachine) -> PyResu
     let own = module.dict().get_item_opt("__name__", vm)?;
     let own = own.as_deref().and_then(|name| name.downcast_ref::<PyStr>());
     let own = own.map_or_else(String::new, |name| name.to_string());
-    let known = names();
-    let Some((own, known)) = known.iter().find(|(known, _)| *known == own) else {
+    let Some((own, known)) = names().iter().find(|(known, _)| *known == own) else {
         return Err(error);
     };
     Err(vm.new_attribute_error(absent::sentence(own, &text, known)))
@@ -285,6 +292,20 @@ impl<'vm> Filling<'vm> {
         functions
             .iter()
             .try_for_each(|(name, body)| self.add_function(name, Body::Plain(*body)))
+    }
+
+    fn add_elementwise(&self) -> PyResult<()> {
+        for function in UNARY {
+            for name in std::iter::once(&function.name).chain(function.aliases) {
+                self.add_function(name, Body::Unary(function))?;
+            }
+        }
+        for function in BINARY {
+            for name in std::iter::once(&function.name).chain(function.aliases) {
+                self.add_function(name, Body::Binary(function))?;
+            }
+        }
+        Ok(())
     }
 
     fn add_floats(&self, constants: &[(&'static str, f64)]) -> PyResult<()> {
@@ -324,44 +345,18 @@ pub fn install(vm: &VirtualMachine) -> PyResult<()> {
         Ok(vm.ctx.new_bool(!is_true).into())
     }));
 
-    let plain = Filling::new(vm);
-    plain.add_functions(math::FUNCTIONS)?;
-    plain.add_floats(math::CONSTANTS)?;
-    plain.finish("math", "The functions of numbers.")?;
-
-    let linear = Filling::new(vm);
-    linear.add_functions(LINALG)?;
-    linear.add("LinAlgError", types.linear_algebra.into())?;
-    let linear = linear.finish("numpy.linalg", "Linear algebra, as numpy has it.")?;
+    math(vm)?;
+    let linear = linear(types.linear_algebra.into(), vm)?;
 
     let exceptions = Filling::new(vm);
     exceptions.add("AxisError", types.axis.into())?;
     let exceptions = exceptions.finish("numpy.exceptions", "numpy's exceptions.")?;
-
-    let typing = Filling::new(vm);
-    let anything: PyObjectRef = vm.ctx.types.object_type.to_owned().into();
-    for (name, class) in [
-        ("NDArray", &array),
-        ("ArrayLike", &anything),
-        ("DTypeLike", &anything),
-    ] {
-        typing.add(name, class.clone())?;
-    }
-    let typing = typing.finish("numpy.typing", "Names for annotations.")?;
+    let typing = typing(&array, vm)?;
 
     let numpy = Filling::new(vm);
     numpy.add_functions(NUMPY)?;
     numpy.add_floats(CONSTANTS)?;
-    for function in UNARY {
-        for name in std::iter::once(&function.name).chain(function.aliases) {
-            numpy.add_function(name, Body::Unary(function))?;
-        }
-    }
-    for function in BINARY {
-        for name in std::iter::once(&function.name).chain(function.aliases) {
-            numpy.add_function(name, Body::Binary(function))?;
-        }
-    }
+    numpy.add_elementwise()?;
     // numbers out of arrays are Python's own, so numpy's scalar types are Python's too
     let float: PyObjectRef = vm.ctx.types.float_type.to_owned().into();
     let int: PyObjectRef = vm.ctx.types.int_type.to_owned().into();
@@ -392,4 +387,35 @@ pub fn install(vm: &VirtualMachine) -> PyResult<()> {
     numpy.add("__path__", vm.ctx.new_list(Vec::new()).into())?;
     numpy.finish("numpy", "Arrays of numbers, as numpy has them.")?;
     Ok(())
+}
+
+/// Module `math`.
+fn math(vm: &VirtualMachine) -> PyResult<()> {
+    let plain = Filling::new(vm);
+    plain.add_functions(math::FUNCTIONS)?;
+    plain.add_floats(math::CONSTANTS)?;
+    plain.finish("math", "The functions of numbers.")?;
+    Ok(())
+}
+
+/// Module `numpy.linalg`.
+fn linear(error: PyObjectRef, vm: &VirtualMachine) -> PyResult<PyRef<PyModule>> {
+    let linear = Filling::new(vm);
+    linear.add_functions(LINALG)?;
+    linear.add("LinAlgError", error)?;
+    linear.finish("numpy.linalg", "Linear algebra, as numpy has it.")
+}
+
+/// Module `numpy.typing`; `array` is the type of arrays.
+fn typing(array: &PyObjectRef, vm: &VirtualMachine) -> PyResult<PyRef<PyModule>> {
+    let typing = Filling::new(vm);
+    let anything: PyObjectRef = vm.ctx.types.object_type.to_owned().into();
+    for (name, class) in [
+        ("NDArray", array),
+        ("ArrayLike", &anything),
+        ("DTypeLike", &anything),
+    ] {
+        typing.add(name, class.clone())?;
+    }
+    typing.finish("numpy.typing", "Names for annotations.")
 }

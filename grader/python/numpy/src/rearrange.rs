@@ -342,21 +342,25 @@ pub fn argsort(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
     done(places, vm)
 }
 
-/// `numpy.unique`: the different elements in rising order, with `return_counts` how often each occurs.
+/// `numpy.unique`: the different elements in rising order; on request where each is first, which of them each element is, how often each occurs.
 ///
 /// # Errors
 ///
 /// TypeError for what holds no numbers.
 pub fn unique(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
     let view = arguments.array("ar", vm)?;
-    let counts_too = match arguments.keyword("return_counts", vm) {
-        Some(object) => object.try_to_bool(vm)?,
-        None => false,
-    };
-    let mut all = view.values();
-    all.sort_by(|left, right| order(*left, *right));
-    let (mut values, mut counts): (Vec<f64>, Vec<f64>) = (Vec::new(), Vec::new());
-    for value in all {
+    let index_too = arguments.optional_truth("return_index", vm)? == Some(true);
+    let inverse_too = arguments.optional_truth("return_inverse", vm)? == Some(true);
+    let counts_too = arguments.optional_truth("return_counts", vm)? == Some(true);
+    let all = view.values();
+    let mut places: Vec<usize> = (0..all.len()).collect();
+    places.sort_by(|left, right| order(all[*left], all[*right]));
+    let mut values: Vec<f64> = Vec::new();
+    let mut counts: Vec<f64> = Vec::new();
+    let mut firsts: Vec<f64> = Vec::new();
+    let mut inverse = vec![0.0; all.len()];
+    for place in places {
+        let value = all[place];
         let known = values
             .last()
             .is_some_and(|last| *last == value || (last.is_nan() && value.is_nan()));
@@ -365,16 +369,28 @@ pub fn unique(arguments: &mut Arguments, vm: &VirtualMachine) -> PyResult {
             _ => {
                 values.push(value);
                 counts.push(1.0);
+                firsts.push(place as f64);
             }
         }
+        inverse[place] = (values.len() - 1) as f64;
     }
     let shape = Shape::vector(values.len());
     let array = convert::object(View::new(view.dtype(), shape, values), vm);
-    if counts_too {
-        let counts = convert::object(View::new(Dtype::Int, shape, counts), vm);
-        return Ok(vm.ctx.new_tuple(vec![array, counts]).into());
+    let mut results = vec![array];
+    let indices = |shape, numbers| convert::object(View::new(Dtype::Int, shape, numbers), vm);
+    if index_too {
+        results.push(indices(shape, firsts));
     }
-    Ok(array)
+    if inverse_too {
+        results.push(indices(view.shape(), inverse));
+    }
+    if counts_too {
+        results.push(indices(shape, counts));
+    }
+    match results.len() {
+        1 => Ok(results.remove(0)),
+        _ => Ok(vm.ctx.new_tuple(results).into()),
+    }
 }
 
 fn reversed(view: &View, axes: &[usize]) -> View {

@@ -122,6 +122,8 @@ np.cross([1, 2, 3, 4], [1, 2, 3, 4])  # sentence
 np.trace([1, 2])  # sentence
 np.diag(3)  # sentence
 np.interp(1, [1, 2], [1])  # sentence
+np.interp(1, [1, 2], [1, 2], period=0)  # sentence
+np.diff([1, 2], prepend=[[1]])  # sentence
 np.diff(3)  # sentence
 np.diff([1, 2], -1)  # sentence
 np.repeat([1, 2], -1)

@@ -56,6 +56,7 @@ np.argsort([3, 1, 2]), np.argsort([[3, 1], [0, 2]]), np.array([3, 1, 2]).argsort
 a = np.array([3, 1, 2]); a.sort(); a
 a = np.array([[3, 1], [2, 0]]); a.sort(axis=0); a
 np.unique([3, 1, 1, 2]), np.unique([[1, 2], [2, 3]]), np.unique([3, 1, 1], return_counts=True)
+np.unique([3, 1, 1, 2], return_index=True), np.unique([3., 1, 1, 2], True, True), np.unique([[1, 2], [2, 3]], return_inverse=True), np.unique([5, 5], return_inverse=True, return_counts=True)
 np.flip([1, 2, 3]), np.flip([[1, 2], [3, 4]]), np.flip([[1, 2], [3, 4]], axis=0), np.flip([[1, 2], [3, 4]], 1), np.flipud([[1, 2], [3, 4]]), np.fliplr([[1, 2], [3, 4]])
 np.roll([1, 2, 3, 4], 1), np.roll([1, 2, 3, 4], -1), np.roll([[1, 2], [3, 4]], 1), np.roll([[1, 2], [3, 4]], 1, axis=0), np.roll([[1, 2], [3, 4]], 1, axis=1), np.roll([1, 2, 3], 7)
 # products
@@ -66,7 +67,9 @@ np.outer([1, 2], [3, 4, 5]), np.outer([[1, 2], [3, 4]], [1, 2]), np.kron([1, 2],
 np.cross([1, 0, 0], [0, 1, 0]), np.cross([1.5, 2, 3], [4, 5, 6]), np.cross([[1, 0, 0], [0, 1, 0]], [0, 0, 1]), np.cross([[1, 2, 3]], [[4, 5, 6]]), np.cross([1, 2, 3], [[4, 5, 6], [7, 8, 9]])
 # curves
 np.diff([1, 4, 9]), np.diff([1, 4, 9], 2), np.diff([[1, 4], [9, 16]]), np.diff([[1, 4], [9, 16]], axis=0), np.diff([1.5, 2]), np.diff([1]), np.diff([True, False, False]), np.ediff1d([1, 4, 9])
+np.diff([1, 4, 9], prepend=0), np.diff([1, 4, 9], append=[16, 25]), np.diff([1, 4, 9], 2, prepend=0.5, append=2), np.diff([[1, 4], [9, 16]], prepend=0), np.diff([[1, 4], [9, 16]], axis=0, append=1), np.diff([[1, 4]], axis=0, prepend=[[0, 1]])
 np.interp(2.5, [1, 2, 3], [10, 20, 30]), np.interp([0, 1.5, 9], [1, 2, 3], [10, 20, 30]), np.interp(0, [1, 2], [3, 4], left=-1), np.interp(5, [1, 2], [3, 4], right=np.nan), np.interp(2, [1, 2, 3], [1, 4, 9])
+np.interp([-180, 190, 10, 365], [190, -190, 350, -350], [5, 10, 3, 4], period=360), np.interp(-0.5, [0, 1, 3], [1., 2, 4], period=4), np.interp([0.5, 9], [0, 1], [3, 4], left=-1, period=-2), np.interp(7.5, [2], [3], period=3)
 np.unwrap([0, 3, 6.5, 10]), np.unwrap([0, np.pi, -np.pi, 0]), np.unwrap([0, 1, 5, 9]), np.unwrap([3.0, -3.0, 3.0]), np.unwrap([0.0, 350, 10, 20], period=360), np.unwrap([[0.0, 6], [1, 7]])
 np.trapezoid([1, 2, 3]), np.trapezoid([1, 2, 3], [0, 1, 3]), np.trapezoid([1, 2, 3], dx=0.5), np.trapezoid([[1, 2], [3, 4]], axis=0)
 np.gradient([1, 2, 4, 7]), np.gradient([1.0, 2, 4], 0.5), np.gradient([1.0, 2, 4], [0, 1, 3])
