@@ -131,19 +131,20 @@ impl Calls<'_> {
             Ok(answer) => return Reply::Answered(answer),
             Err(stop) => stop,
         };
+        let is_open = self.controller.is_some();
         self.exhausted = match stop {
             // a failure in one case costs only that case
-            Stop::Crashed(_) => self.exhausted,
+            Stop::Crashed(_) if is_open => self.exhausted,
             Stop::OverBudget {
                 budget: Budget::OperationsPerCall | Budget::InstructionsPerCall,
                 ..
             } => self.exhausted + 1,
-            // a problem of the whole file or of this machine concerns every case
+            // a problem of the whole file, of its own statements or of this machine concerns every case
             _ => MOST_EXHAUSTED,
         };
-        let stage = match self.controller {
-            Some(_) => Stage::Call,
-            None => Stage::Reading,
+        let stage = match is_open {
+            true => Stage::Call,
+            false => Stage::Reading,
         };
         self.stop
             .get_or_insert(Ended::stopped_by(stop, i as u64).in_stage(stage));
@@ -308,5 +309,89 @@ fn hash_value(hasher: &mut blake3::Hasher, value: &Value) {
                 hash_value(hasher, value);
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::submission::controller::{Budgets, Mistake};
+    use crate::submission::handed_in::Program;
+
+    /// Fails to open every submission with one stop, and counts.
+    struct Refusing {
+        stop: Stop,
+        opened: usize,
+    }
+
+    impl Host for Refusing {
+        fn open(&mut self, _: &Opening) -> Result<Box<dyn Controller>, Stop> {
+            self.opened += 1;
+            Err(self.stop.clone())
+        }
+    }
+
+    fn robot() -> RobotFacts {
+        RobotFacts {
+            name: "arm".into(),
+            joint_names: vec!["a".into()],
+            dimensions: Vec::new(),
+            lower: vec![-1.0],
+            upper: vec![1.0],
+            effort: vec![1.0],
+        }
+    }
+
+    /// How often a submission that cannot be opened is opened for ten cases.
+    fn opened(stop: Stop) -> usize {
+        let opening = Opening {
+            file: "submission.py".into(),
+            program: Program::Python(String::new()),
+            task: "fk".into(),
+            robot: robot(),
+            target: Value::Nothing,
+            sensors: Vec::new(),
+            budgets: Budgets::default(),
+            granted: None,
+            function: None,
+        };
+        let mut host = Refusing { stop, opened: 0 };
+        let mut calls = Calls {
+            opening: &opening,
+            host: &mut host,
+            controller: None,
+            exhausted: 0,
+            stop: None,
+        };
+        let call = Call::ForwardKinematics {
+            robot: robot(),
+            q: vec![0.0],
+        };
+        for case in 0..10 {
+            let reply = calls.reply(case, &call);
+            assert!(!matches!(reply, Reply::Answered(_)));
+        }
+        let first = calls.stop.expect("there is a first stop");
+        assert_eq!((first.at, first.stage), (0, Stage::Reading));
+        host.opened
+    }
+
+    /// Reading a file may cost fifty times what a call may.
+    #[test]
+    fn a_file_whose_own_statements_fail_is_read_once() {
+        let mistake = Mistake {
+            message: "division by zero".into(),
+            place: None,
+            help: None,
+            further: Vec::new(),
+        };
+        assert_eq!(opened(Stop::Crashed(mistake)), 1);
+        let out_of_budget = Stop::OverBudget {
+            budget: Budget::InstructionsToRead,
+            limit: 10,
+            place: None,
+            function: None,
+        };
+        assert_eq!(opened(out_of_budget), 1);
     }
 }

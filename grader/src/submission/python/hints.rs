@@ -130,6 +130,7 @@ const OF_NUMPY: [&str; 25] = [
     "allclose",
 ];
 const OF_LINALG: [&str; 7] = ["norm", "inv", "pinv", "solve", "det", "svd", "lstsq"];
+const A_NUMBER: &str = "one number is wanted here: take an element, such as q[0]";
 const AN_INT: &str = "an index is an int: write // instead of /, or int(x)";
 
 fn of_name(name: &str, line: &str, source: &str) -> Option<String> {
@@ -279,7 +280,15 @@ fn is_an_open_block(line: &str) -> bool {
 }
 
 fn of_type(message: &str, line: &str) -> Option<&'static str> {
-    if message.contains("only length-1 arrays") || message.contains("only size-1 arrays") {
+    let is_array =
+        message.contains("only length-1 arrays") || message.contains("only size-1 arrays");
+    if line.contains("% ") && (is_array || message.contains("must be real number")) {
+        return Some("write each element into the text, or all of them: f\"{q}\"");
+    }
+    if is_array && !line.contains("math.") {
+        return Some(A_NUMBER);
+    }
+    if is_array {
         return Some("math works on one number: use np.sin, np.cos and so on for arrays");
     }
     if message.contains("unhashable") {
@@ -296,12 +305,10 @@ fn of_type(message: &str, line: &str) -> Option<&'static str> {
         return Some("arrays that belong together are one argument: np.hstack([a, b])");
     }
     if message.contains("float() argument") {
-        return Some("one number is wanted here: take an element, such as q[0]");
+        return Some(A_NUMBER);
     }
-    if message.contains("must be real number") && line.contains("% ") {
-        return Some("write each element into the text, or all of them: f\"{q}\"");
-    }
-    if message.contains("unsupported operand") && message.contains('^') {
+    let is_xor = message.contains("unsupported operand") && message.contains('^');
+    if is_xor || message.contains("'bitwise_xor'") {
         return Some("Python writes a power as **");
     }
     if message.contains("indices must be integers") && message.ends_with("float") {
