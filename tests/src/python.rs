@@ -54,7 +54,9 @@ fn a_build_without_optimisation_writes_the_same_bytes_of_python() {
     }
     let solutions = solutions();
     let tested = files_of(&solutions, binary(), &[]);
-    assert_same(&tested, &files_of(&solutions, &build("unoptimised"), &[]));
+    // without optimisation every motion takes longer than a worker may
+    let unoptimised = files_of(&solutions, &build("unoptimised"), &["--in-process"]);
+    assert_same(&tested, &unoptimised);
 }
 
 #[test]
@@ -143,6 +145,35 @@ fn a_report_of_python_is_verified_compared_and_handed_in() {
         handed_in.stdout,
         handed_in.stderr
     );
+}
+
+#[test]
+fn python_is_known_by_its_text_where_a_name_says_nothing() {
+    let bed = TestBed::new();
+    let solution = root().join("reference/01-kinematics/solution.py");
+    std::fs::copy(&solution, bed.path("answer.txt")).expect("a copy");
+    for name in ["-", "answer.txt"] {
+        let input = std::fs::File::open(&solution).expect("the solution");
+        let arguments = ["grade", "01-kinematics", name, "--practice", "--json"];
+        let graded = bed.command(&arguments).stdin(input).output();
+        let graded = graded.expect("the program runs");
+        assert_eq!(graded.status.code(), Some(0), "{name}: {graded:?}");
+    }
+}
+
+#[test]
+fn what_a_file_prints_before_its_own_statement_fails_is_in_the_grade() {
+    let bed = TestBed::new();
+    bed.write("submission.py", "print('here')\nx = 1 / 0\n");
+    for host in [&[][..], &["--in-process"]] {
+        let arguments = ["grade", "01-kinematics", "--practice", "--json"];
+        let graded = bed.run(&[&arguments, host].concat());
+        assert_eq!(graded.code, Some(1), "{}", graded.stderr);
+        let record: serde_json::Value = serde_json::from_str(&graded.stdout).expect("a record");
+        for task in record["tasks"].as_array().expect("tasks") {
+            assert_eq!(task["log"][0]["text"], "here", "{host:?}: {task:#}");
+        }
+    }
 }
 
 #[test]

@@ -5,13 +5,14 @@ use std::io::Read;
 use std::path::Path;
 
 use kinemark_course::hand_in_file::HandInFile;
-use kinemark_course::language::MODULE_FILE;
+use kinemark_course::language::{Language, MODULE_FILE};
 use kinemark_course::layout::PersonFiles;
 use kinemark_course::selection::{MOST_HAND_IN_BYTES, MOST_SUBMISSION_BYTES};
 use kinemark_course::submission_file::{Unclear, submission_of};
 use kinemark_course::submission_source::SubmissionSource;
 use kinemark_course::tree::{Limits, Tree};
 use kinemark_course::working_folder::SUBMISSION_FILE;
+use kinemark_grader::submission::handed_in::reads_as_python;
 use kinemark_grader::submission::not_text::absent;
 
 use crate::failure::Failure;
@@ -110,12 +111,13 @@ fn of_input(input: impl Read) -> Result<SubmissionSource, Failure> {
     if bytes.len() as u64 > MOST_SUBMISSION_BYTES {
         return Err(Failure::usage(
             format!("standard input has more than {MOST_SUBMISSION_BYTES} bytes"),
-            "send the submission alone: a script, or a module",
+            "send the submission alone: a script, a file in Python, or a module",
         ));
     }
-    let name = match bytes.starts_with(b"\0asm") {
-        true => MODULE_FILE,
-        false => SUBMISSION_FILE,
+    let name = match std::str::from_utf8(&bytes) {
+        _ if bytes.starts_with(b"\0asm") => MODULE_FILE,
+        Ok(text) if reads_as_python(text) => Language::Python.source(),
+        _ => SUBMISSION_FILE,
     };
     Ok(SubmissionSource::new(name, &bytes))
 }

@@ -8,7 +8,7 @@ use super::{Attempt, EndReason, Ended, Stage};
 use crate::record::grade::LogEntry;
 use crate::submission::answer::NOT_A_NUMBER;
 use crate::submission::controller::{
-    Answer, Budget, Call, Controller, Opening, RobotFacts, Said, Stop,
+    Answer, Budget, Call, Controller, Failed, Opening, RobotFacts, Said, Stop,
 };
 use crate::submission::host::Host;
 use crate::submission::rhai::ScriptController;
@@ -127,9 +127,9 @@ impl Calls<'_> {
         if self.exhausted >= MOST_EXHAUSTED {
             return Reply::NotCalled;
         }
-        let stop = match self.call(call) {
+        let Failed { stop, said } = match self.call(call) {
             Ok(answer) => return Reply::Answered(answer),
-            Err(stop) => stop,
+            Err(failed) => *failed,
         };
         let is_open = self.controller.is_some();
         self.exhausted = match stop {
@@ -148,16 +148,18 @@ impl Calls<'_> {
         };
         self.stop
             .get_or_insert(Ended::stopped_by(stop, i as u64).in_stage(stage));
-        let said = self.controller.as_mut().map(|open| open.unanswered());
-        Reply::Stopped(said.unwrap_or_default())
+        Reply::Stopped(said)
     }
 
-    fn call(&mut self, call: &Call) -> Result<Answer, Stop> {
+    fn call(&mut self, call: &Call) -> Result<Answer, Box<Failed>> {
         let open = match &mut self.controller {
             Some(open) => open,
             None => self.controller.insert(self.host.open(self.opening)?),
         };
-        open.call(call)
+        open.call(call).map_err(|stop| {
+            let said = open.unanswered();
+            Box::new(Failed { stop, said })
+        })
     }
 }
 
@@ -325,9 +327,9 @@ mod tests {
     }
 
     impl Host for Refusing {
-        fn open(&mut self, _: &Opening) -> Result<Box<dyn Controller>, Stop> {
+        fn open(&mut self, _: &Opening) -> Result<Box<dyn Controller>, Box<Failed>> {
             self.opened += 1;
-            Err(self.stop.clone())
+            Err(self.stop.clone().into())
         }
     }
 

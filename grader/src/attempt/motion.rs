@@ -351,7 +351,10 @@ fn started(
     output: &mut Output,
 ) -> Result<Box<dyn Controller>, Box<Ended>> {
     let ended = |stage| move |stop| Box::new(Ended::stopped_by(stop, 0).in_stage(stage));
-    let mut controller = host.open(opening).map_err(ended(Stage::Reading))?;
+    let mut controller = host.open(opening).map_err(|failed| {
+        output.keep(0, failed.said);
+        ended(Stage::Reading)(failed.stop)
+    })?;
     ask(controller.as_mut(), &Call::Init, 0, output).map_err(ended(Stage::Init))?;
     Ok(controller)
 }

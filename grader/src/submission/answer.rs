@@ -17,7 +17,7 @@ pub const NOT_A_NUMBER: &str = "the result is not a number";
 pub fn position(value: &Value) -> Result<Vector3<f64>, String> {
     match numbers(value).as_deref() {
         Some([x, y, z]) => finite(value, &[*x, *y, *z]).map(|()| Vector3::new(*x, *y, *z)),
-        _ => Err(instead(value, "3 numbers [x, y, z]")),
+        _ => Err(flat_instead(value, "3 numbers [x, y, z]")),
     }
 }
 
@@ -115,7 +115,7 @@ pub fn pose(value: &Value, form: PoseForm) -> Result<Vec<f64>, String> {
     }
     match numbers(value) {
         Some(found) if found.len() == form.numbers() => finite(value, &found).map(|()| found),
-        _ => Err(instead(value, form.expected())),
+        _ => Err(flat_instead(value, form.expected())),
     }
 }
 
@@ -158,8 +158,9 @@ pub fn entries(value: &Value, expected: &[(String, Entry)]) -> Vec<Result<Vec<f6
         };
         match numbers {
             None => {
-                let (found, wanted) = (describe(found), should.shape());
-                Err(format!("{found}{of}, expected {wanted}"))
+                let (shown, wanted) = (describe(found), should.shape());
+                let without = without_inner_brackets(found);
+                Err(format!("{shown}{of}, expected {wanted}{without}"))
             }
             Some(numbers) if numbers.iter().all(|number| number.is_finite()) => Ok(numbers),
             Some(_) => Err(format!("{}{of}, expected finite numbers", describe(found))),
@@ -211,7 +212,7 @@ pub fn command(value: &Value, n: usize) -> Result<Vec<f64>, String> {
     };
     match found {
         Some(numbers) if numbers.len() == n => finite(value, &numbers).map(|()| numbers),
-        _ => Err(instead(value, &format!("{n} numbers, one per joint"))),
+        _ => Err(flat_instead(value, &format!("{n} numbers, one per joint"))),
     }
 }
 
@@ -226,6 +227,24 @@ fn finite(value: &Value, numbers: &[f64]) -> Result<(), String> {
 /// A message with the invalid value and the expectation.
 fn instead(value: &Value, expected: &str) -> String {
     format!("{}, expected {expected}", describe(value))
+}
+
+/// The same where a flat list of numbers was expected.
+fn flat_instead(value: &Value, expected: &str) -> String {
+    instead(value, expected) + without_inner_brackets(value)
+}
+
+/// What to do about a matrix with a single row or column where a list of numbers was expected: numpy makes them all the time.
+fn without_inner_brackets(value: &Value) -> &'static str {
+    let Value::List(items) = value else {
+        return "";
+    };
+    let is_column = |item: &Value| numbers(item).is_some_and(|row| row.len() == 1);
+    let is_row = items.len() == 1 && items.iter().all(|item| numbers(item).is_some());
+    match is_row || !items.is_empty() && items.iter().all(is_column) {
+        true => ", without the inner brackets (in numpy `.ravel()`)",
+        false => "",
+    }
 }
 
 /// The numbers of a list of numbers.
@@ -320,6 +339,23 @@ mod tests {
                 .contains("[1, NaN, 0]")
         );
         assert!(position(&Value::Nothing).unwrap_err().contains("nothing"));
+    }
+
+    #[test]
+    fn a_row_or_a_column_of_a_matrix_is_to_lose_its_brackets() {
+        let column = Value::List(vec![numbers_of(&[1.0]), numbers_of(&[2.0])]);
+        let row = Value::List(vec![numbers_of(&[1.0, 2.0])]);
+        for value in [&column, &row] {
+            let what = command(value, 2).unwrap_err();
+            assert!(what.ends_with("without the inner brackets (in numpy `.ravel()`)"));
+        }
+        let answer = Value::Map(vec![("a".into(), column)]);
+        let expected = [("a".to_owned(), Entry::List(vec![0.0, 0.0]))];
+        let what = entries(&answer, &expected).remove(0).unwrap_err();
+        assert!(what.ends_with("(in numpy `.ravel()`)"), "{what}");
+        for value in [numbers_of(&[1.0]), Value::List(Vec::new()), Value::Nothing] {
+            assert!(!command(&value, 2).unwrap_err().contains("brackets"));
+        }
     }
 
     #[test]

@@ -32,6 +32,22 @@ pub struct Said {
     pub plots: Vec<(String, f64)>,
 }
 
+/// A submission that ended before it answered: why, and what it said until then.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Failed {
+    /// Why it ended.
+    pub stop: Stop,
+    /// What it said.
+    pub said: Said,
+}
+
+impl From<Stop> for Box<Failed> {
+    fn from(stop: Stop) -> Self {
+        let said = Said::default();
+        Self::new(Failed { stop, said })
+    }
+}
+
 #[cfg(test)]
 impl Said {
     /// The texts of the printed lines.

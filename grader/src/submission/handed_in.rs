@@ -108,12 +108,41 @@ impl From<&Source> for Submission {
         let text = script.text().to_owned();
         Self {
             name: script.name().to_owned(),
-            program: match is_python_name(script.name()) {
+            program: match is_python(script.name(), script.text()) {
                 true => Program::Python(text),
                 false => Program::Script(text),
             },
             sources: None,
         }
+    }
+}
+
+/// Whether a file is in Python: by its name, or where that says nothing, as of standard input, by its text.
+fn is_python(name: &str, text: &str) -> bool {
+    let is_script_name = name.to_lowercase().contains(".rhai");
+    is_python_name(name) || !is_script_name && reads_as_python(text)
+}
+
+/// Whether a text without a name is in Python.
+pub fn reads_as_python(text: &str) -> bool {
+    text.lines().any(is_python_line)
+}
+
+/// Whether a line can be nothing but the beginning of a statement of Python at the left margin.
+fn is_python_line(line: &str) -> bool {
+    let words: Vec<&str> = line.split_whitespace().collect();
+    let is_name = |word: &str| {
+        let mut letters = word.chars();
+        letters
+            .next()
+            .is_some_and(|c| c.is_alphabetic() || c == '_')
+            && letters.all(|c| c.is_alphanumeric() || c == '_' || c == '.')
+    };
+    match words.as_slice() {
+        ["def", head, ..] => head.contains('(') && line.trim_end().ends_with(':'),
+        ["from", module, "import", ..] => is_name(module),
+        ["import", module] | ["import", module, "as", _] => is_name(module),
+        _ => false,
     }
 }
 
@@ -149,6 +178,24 @@ mod tests {
             "a.python.txt",
         ] {
             assert!(!is_python_name(name), "{name}");
+        }
+        for text in [
+            "import numpy as np\n",
+            "# mine\n\nfrom math import sin, cos\n",
+            "def fk(robot, q):\n    return [1, 2]\n",
+            "import math\r\n",
+        ] {
+            assert!(is_python("-", text), "{text}");
+            assert!(is_python("submission.txt", text), "{text}");
+            assert!(!is_python("submission.rhai", text), "{text}");
+        }
+        for text in [
+            "fn fk(robot, q) {\n    [1, 2]\n}\n",
+            "// import what is needed\nlet a = 1;\n",
+            "import \"crypto\" as c;\n",
+            "",
+        ] {
+            assert!(!is_python("-", text), "{text}");
         }
         let python = Submission::from(Source::new("a.py", "x = 1\n"));
         assert_eq!(python.program(), &Program::Python("x = 1\n".to_owned()));

@@ -1,6 +1,6 @@
 //! Hosts that open submissions: this process, or one that starts workers.
 
-use super::controller::{Controller, Opening, Stop};
+use super::controller::{Controller, Failed, Opening};
 use super::handed_in::Program;
 use super::plugin::PluginController;
 use super::rhai::ScriptController;
@@ -10,8 +10,8 @@ pub trait Host {
     /// Starts the submission of `opening`.
     ///
     /// # Errors
-    /// [`Stop`] if it cannot start.
-    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop>;
+    /// [`Failed`] if it cannot start.
+    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Box<Failed>>;
 
     /// Called when a task begins, to show progress.
     fn begins(&mut self, _task: &str) {}
@@ -22,7 +22,7 @@ pub trait Host {
 pub struct InProcess;
 
 impl Host for InProcess {
-    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop> {
+    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Box<Failed>> {
         open_here(opening)
     }
 }
@@ -30,22 +30,22 @@ impl Host for InProcess {
 /// Opens a submission in this process, whatever it is made of.
 ///
 /// # Errors
-/// [`Stop`] if it cannot start.
-pub fn open_here(opening: &Opening) -> Result<Box<dyn Controller>, Stop> {
+/// [`Failed`] if it cannot start.
+pub fn open_here(opening: &Opening) -> Result<Box<dyn Controller>, Box<Failed>> {
     Ok(match opening.program {
         Program::Script(_) => Box::new(ScriptController::open(opening)?),
         Program::Module(_) => Box::new(PluginController::open(opening)?),
         #[cfg(feature = "python")]
         Program::Python(_) => Box::new(super::python::PythonController::open(opening)?),
         #[cfg(not(feature = "python"))]
-        Program::Python(_) => return Err(without_python()),
+        Program::Python(_) => return Err(without_python().into()),
     })
 }
 
 /// The stop where Python is left out of the build: in a browser.
 #[cfg(not(feature = "python"))]
-fn without_python() -> Stop {
-    Stop::DidNotBuild(super::controller::Mistake {
+fn without_python() -> super::controller::Stop {
+    super::controller::Stop::DidNotBuild(super::controller::Mistake {
         message: "this build of Kinemark does not run Python".to_owned(),
         place: None,
         help: Some("grade it with the program that you install, or hand in a script".to_owned()),

@@ -1,7 +1,7 @@
 //! A file that is neither a script nor a module: it does not build, and its first bytes, the place of the first byte that is no text, or
 //! the language that it is written in say why.
 
-use super::controller::{Controller, Mistake, Opening, SourcePosition, Stop};
+use super::controller::{Controller, Failed, Mistake, Opening, SourcePosition, Stop};
 use super::host::Host;
 
 /// Files that are handed in instead of a submission, by their first bytes.
@@ -137,8 +137,8 @@ impl NotText {
 }
 
 impl Host for NotText {
-    fn open(&mut self, _: &Opening) -> Result<Box<dyn Controller>, Stop> {
-        Err(Stop::DidNotBuild(self.mistake.clone()))
+    fn open(&mut self, _: &Opening) -> Result<Box<dyn Controller>, Box<Failed>> {
+        Err(Stop::DidNotBuild(self.mistake.clone()).into())
     }
 }
 

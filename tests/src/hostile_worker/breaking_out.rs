@@ -93,7 +93,7 @@ pub(crate) fn a_sealed_worker_cannot_get_out() {
             let mut host = host(LONGEST);
             match host.open(&opening(ERRAND, errand)) {
                 Ok(_) => "it was opened".to_owned(),
-                Err(stop) => words_of(stop),
+                Err(failed) => words_of(failed.stop),
             }
         });
         let refused = matches!(Ended::of(&said), Some(Ended::Refused(_)))

@@ -44,7 +44,7 @@ pub(crate) fn the_end_of_memory_is_a_limit_of_memory() {
 
 fn stop_of(how: &str) -> Stop {
     let opened = host(LONGEST).open(&opening(LIMIT, how.to_owned()));
-    opened.err().expect("a stop")
+    opened.err().expect("a stop").stop
 }
 
 /// Gives the worker that runs one second of CPU time, and as many as `hard` until it is killed, once it has limits of its own.

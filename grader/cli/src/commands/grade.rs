@@ -60,7 +60,7 @@ use crate::{
 pub(crate) struct Args {
     /// The lab, as `kinemark` lists it, or the beginning of its name [default: that of the folder]
     pub(crate) lab: Option<String>,
-    /// The submission: a script, a file in Python, a module, or a folder, a ZIP archive or a hand-in file with one in it; `-` reads a script or a module from standard input [default: submission.rhai or submission.py, or the module of the project here]
+    /// The submission: a script, a file in Python, a module, or a folder, a ZIP archive or a hand-in file with one in it; `-` reads one of the first three from standard input [default: submission.rhai or submission.py, or the module of the project here]
     pub(crate) submission: Option<PathBuf>,
     /// Build the project of the submission first: runs the compiler, and a build script if the project has one
     #[arg(long)]

@@ -54,7 +54,7 @@ pub(super) fn answer_calls(
                         controller = Some(opened);
                         Reply::Opened
                     }
-                    Err(stop) => stopped(stop, Said::default())?,
+                    Err(failed) => stopped(failed.stop, failed.said)?,
                 }
             }
             Received::Try => Reply::Tried(tried(parent)),

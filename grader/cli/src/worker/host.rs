@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Duration;
 
 use kinemark_grader::submission::controller::{
-    Answer, Budgets, Call, Controller, Opening, Said, Stop,
+    Answer, Budgets, Call, Controller, Failed, Opening, Said, Stop,
 };
 use kinemark_grader::submission::handed_in::Program;
 use kinemark_grader::submission::host::Host;
@@ -71,9 +71,9 @@ impl WorkerHost {
 }
 
 impl Host for WorkerHost {
-    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Stop> {
+    fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Box<Failed>> {
         if interrupt::asked() {
-            return Err(Stop::Interrupted);
+            return Err(Stop::Interrupted.into());
         }
         let submission = digest_of(opening);
         let kept = self
@@ -99,9 +99,17 @@ impl Host for WorkerHost {
                 unanswered: Said::default(),
                 home: Arc::clone(&self.kept),
             })),
-            Reply::Stopped(stop, _) => Err(stop.stop()),
+            Reply::Stopped(stop, said) => {
+                let said = said.said();
+                if Held::to(opening).take(0, &said) {
+                    let stop = stop.stop();
+                    Err(Box::new(Failed { stop, said }))
+                } else {
+                    Err(beyond().into())
+                }
+            }
             Reply::Ready(_) | Reply::Answered(_) | Reply::Tried(_) => {
-                Err(broken("another reply than it was asked for"))
+                Err(broken("another reply than it was asked for").into())
             }
         }
     }
@@ -128,6 +136,10 @@ fn broken(what: &str) -> Stop {
     Stop::GraderFault(format!(
         "the worker process sent {what}: look at the submission before you grade it again"
     ))
+}
+
+fn beyond() -> Stop {
+    broken("more than a submission can use, print or plot")
 }
 
 /// The budgets that a worker counts, held again: what it says it used or said is believed only within them.
@@ -205,7 +217,6 @@ impl Lease {
         let Some(worker) = &mut self.worker else {
             return Err(Stop::GraderFault("a worker that was given back".to_owned()));
         };
-        let beyond = || broken("more than a submission can use, print or plot");
         match worker.exchange(&Request::Call(call))? {
             Reply::Answered(answer) => {
                 let answer = answer

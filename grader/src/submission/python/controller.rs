@@ -12,8 +12,8 @@ use super::convert;
 use super::hints;
 use super::instance::{Instance, MEMORY_BYTES, Trouble};
 use crate::submission::controller::{
-    Answer, AskedFunction, Budget, Budgets, Call, Controller, Grant, Mistake, Namesake, Opening,
-    Said, SourcePosition, Stop, Value, entry_parameters,
+    Answer, AskedFunction, Budget, Budgets, Call, Controller, Failed, Grant, Mistake, Namesake,
+    Opening, Said, SourcePosition, Stop, Value, entry_parameters,
 };
 use crate::submission::handed_in::Program;
 use crate::submission::output::Output;
@@ -42,12 +42,11 @@ impl PythonController {
     /// Starts the runtime, and runs the file's statements.
     ///
     /// # Errors
-    /// [`Stop::DidNotBuild`] for a file that Python cannot read, and any stop of its statements.
-    pub fn open(opening: &Opening) -> Result<Self, Stop> {
+    /// [`Stop::DidNotBuild`] for a file that Python cannot read, and any stop of its statements, with what they printed.
+    pub fn open(opening: &Opening) -> Result<Self, Box<Failed>> {
         let Program::Python(source) = &opening.program else {
-            return Err(Stop::GraderFault(
-                "a program of another kind is opened as Python".to_owned(),
-            ));
+            let what = "a program of another kind is opened as Python";
+            return Err(Stop::GraderFault(what.to_owned()).into());
         };
         let budgets = opening.budgets.clone();
         if source.len() as u64 > budgets.source_bytes {
@@ -56,7 +55,8 @@ impl PythonController {
                 limit: budgets.source_bytes,
                 place: None,
                 function: None,
-            });
+            }
+            .into());
         }
         let granted = opening.granted.as_ref();
         let grants = granted.map_or_else(Vec::new, |granted| granted.functions.clone());
@@ -80,8 +80,13 @@ impl PythonController {
             budgets,
             grants,
         };
-        controller.load(opening)?;
-        Ok(controller)
+        match controller.load(opening) {
+            Ok(()) => Ok(controller),
+            Err(stop) => Err(Box::new(Failed {
+                stop,
+                said: controller.unanswered(),
+            })),
+        }
     }
 
     fn load(&mut self, opening: &Opening) -> Result<(), Stop> {

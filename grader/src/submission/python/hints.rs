@@ -43,7 +43,9 @@ pub(super) fn help(
         "LinAlgError" => Some(
             "at a singular configuration use np.linalg.pinv, or damp: J.T @ np.linalg.inv(J @ J.T + d * np.eye(m))",
         ),
-        "TypeError" => of_type(message, line),
+        "TypeError" => of_one_number(message, line)
+            .or_else(|| of_operands(message, line))
+            .or_else(|| of_call(message, line)),
         "ValueError" => of_value(message),
         "MemoryError" => Some("make lists, texts and arrays smaller"),
         _ => None,
@@ -279,7 +281,8 @@ fn is_an_open_block(line: &str) -> bool {
     opens.iter().any(|word| line.starts_with(word)) && !line.ends_with(':')
 }
 
-fn of_type(message: &str, line: &str) -> Option<&'static str> {
+/// A TypeError where one number, or an int, is wanted.
+fn of_one_number(message: &str, line: &str) -> Option<&'static str> {
     let is_array =
         message.contains("only length-1 arrays") || message.contains("only size-1 arrays");
     if line.contains("% ") && (is_array || message.contains("must be real number")) {
@@ -307,6 +310,11 @@ fn of_type(message: &str, line: &str) -> Option<&'static str> {
     if message.contains("float() argument") {
         return Some(A_NUMBER);
     }
+    None
+}
+
+/// A TypeError of operators and indices.
+fn of_operands(message: &str, line: &str) -> Option<&'static str> {
     let is_xor = message.contains("unsupported operand") && message.contains('^');
     if is_xor || message.contains("'bitwise_xor'") {
         return Some("Python writes a power as **");
@@ -328,6 +336,11 @@ fn of_type(message: &str, line: &str) -> Option<&'static str> {
     if message.contains("'NoneType'") {
         return Some("a function without `return` returns None");
     }
+    None
+}
+
+/// A TypeError of brackets, round and square, and of what is between them.
+fn of_call(message: &str, line: &str) -> Option<&'static str> {
     let kind = message
         .strip_prefix('\'')
         .and_then(|rest| rest.split('\'').next());

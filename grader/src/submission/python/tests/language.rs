@@ -32,9 +32,7 @@ fn there_is_nothing_outside() {
         ("eval('1')", "NameError: name 'eval' is not there"),
         ("exec('1')", "NameError: name 'exec' is not there"),
     ] {
-        let stop = PythonController::open(&opening(&format!("{line}\n")))
-            .err()
-            .expect(line);
+        let stop = failed(&format!("{line}\n")).stop;
         let (message, ..) = mistake(stop);
         assert!(message.starts_with(words), "{line}: {message}");
     }
@@ -72,10 +70,7 @@ fn programs_print_what_python_prints() {
     for path in programs {
         let source = std::fs::read_to_string(&path).expect("a program");
         let expected = std::fs::read_to_string(path.with_extension("out")).expect("its output");
-        let mut opened = match PythonController::open(&opening(&source)) {
-            Ok(opened) => opened,
-            Err(stop) => panic!("{}: {stop:?}", path.display()),
-        };
+        let mut opened = open(&source);
         let printed = opened.unanswered().log.into_iter();
         let printed: Vec<String> = printed.map(|line| line.text).collect();
         let expected: Vec<&str> = expected.lines().collect();

@@ -43,21 +43,18 @@ fn a_file_that_python_cannot_read_does_not_build() {
         ("x = 1\ny = 2 +\n", "SyntaxError", 2),
         ("x = 'abc\n", "SyntaxError", 1),
     ] {
-        let stop = PythonController::open(&opening(source))
-            .err()
-            .expect(source);
+        let stop = failed(source).stop;
         assert!(matches!(stop, Stop::DidNotBuild(_)), "{source}: {stop:?}");
         let (message, _, line, _) = mistake(stop);
         assert!(message.starts_with(words), "{source}: {message}");
         assert_eq!(line, at, "{source}: {message}");
     }
-    let stop = PythonController::open(&opening("import numpy\nx = 1 / 0\n"))
-        .err()
-        .expect("it stops");
-    let (message, _, line, _) = mistake(stop);
+    let failed = failed("import numpy\nprint('here')\nx = 1 / 0\n");
+    assert_eq!(failed.said.texts(), ["here"]);
+    let (message, _, line, _) = mistake(failed.stop);
     assert_eq!(
         (message.as_str(), line),
-        ("ZeroDivisionError: division by zero", 2)
+        ("ZeroDivisionError: division by zero", 3)
     );
 }
 
@@ -161,6 +158,7 @@ fn an_exception_that_nobody_can_catch_is_printed() {
 /// Each advice, by a line of `control` that needs it.
 #[test]
 fn every_slip_has_its_advice() {
+    // long: a row for each slip
     let before = "import math\nimport numpy as np\na = np.array([1.0, 2.0])\nl = [1.0, 2.0]\nd = {}\n\ndef nothing(x):\n    pass\n\nclass Filter:\n    def step(x):\n        return x\n    def both(self, x):\n        return self.step(x)\n\ndef control(observation):\n    ";
     let mut wrong = Vec::new();
     for (line, advice) in [
@@ -314,8 +312,7 @@ fn every_slip_of_syntax_has_its_advice() {
         ("return a' * a", "the transpose of a matrix is A.T"),
     ] {
         let source = format!("def control(observation):\n    {line}\n");
-        let stop = PythonController::open(&opening(&source)).err().expect(line);
-        let (message, help, at, _) = mistake(stop);
+        let (message, help, at, _) = mistake(failed(&source).stop);
         if !help.contains(advice) || at != 2 {
             wrong.push(format!("{line}: line {at}: {message}: {help}"));
         }

@@ -6,8 +6,8 @@ mod mistakes;
 
 use super::PythonController;
 use crate::submission::controller::{
-    Answer, AskedFunction, Budget, Budgets, Call, Controller, Mistake, Observation, Opening, Reads,
-    RobotFacts, SensorFacts, SourcePosition, Stop, Value,
+    Answer, AskedFunction, Budget, Budgets, Call, Controller, Failed, Mistake, Observation,
+    Opening, Reads, RobotFacts, SensorFacts, SourcePosition, Stop, Value,
 };
 use crate::submission::handed_in::Program;
 
@@ -67,12 +67,19 @@ fn list(numbers: &[f64]) -> Value {
 }
 
 fn open(source: &str) -> PythonController {
-    PythonController::open(&opening(source)).unwrap_or_else(|stop| panic!("{stop:?}"))
+    PythonController::open(&opening(source)).unwrap_or_else(|failed| panic!("{failed:?}"))
+}
+
+/// How a file ends that cannot be opened.
+fn failed(source: &str) -> Failed {
+    let opened = PythonController::open(&opening(source));
+    *opened.err().expect(source)
 }
 
 /// What `control` of a file answers.
 fn control(source: &str) -> Result<Answer, Stop> {
-    PythonController::open(&opening(source))?.call(&Call::Control(observation()))
+    let mut opened = PythonController::open(&opening(source)).map_err(|failed| failed.stop)?;
+    opened.call(&Call::Control(observation()))
 }
 
 /// The exception that ends `control` of a file.
