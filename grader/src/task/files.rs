@@ -63,6 +63,11 @@ pub const UNREAD_HELP: &str =
 /// # Errors
 /// The line and the column at which it stops being UTF-8, in words.
 pub fn text(bytes: Vec<u8>) -> Result<String, String> {
+    // of a text in UTF-16 with our letters, every second byte is 0
+    let begins_with_zero = bytes.iter().take(2).filter(|byte| **byte == 0).count() == 1;
+    if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") || begins_with_zero {
+        return Err("text in UTF-16: save it as UTF-8".to_owned());
+    }
     String::from_utf8(bytes).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
         let before = String::from_utf8_lossy(&error.as_bytes()[..at]);

@@ -42,7 +42,9 @@ impl TomlRefusal {
         } else {
             unknown(message, given, text, &at)
                 .or_else(|| key(message, given, text, at.start))
+                .or_else(|| not_quoted(message, given, expressions))
                 .or_else(|| value(message, given, expressions))
+                .or_else(|| brackets(message, text, at.start))
                 .unwrap_or_else(|| syntax(message, text, at.start))
         };
         Self {
@@ -71,8 +73,9 @@ fn unknown(message: &str, given: &str, text: &str, at: &Range<usize>) -> Option<
     let known: Vec<&str> = quoted.collect();
     // a second one of the same key would be the next mistake
     let present = keys_beside(text, at);
+    let is_item = line_of(text, at.start).1.trim_start().starts_with("[[");
     let free = known.iter().copied();
-    let free = free.filter(|name| !present.iter().any(|key| key == name));
+    let free = free.filter(|name| is_item || !present.iter().any(|key| key == name));
     let of_turning = |stem: &str| {
         known
             .iter()
@@ -99,6 +102,9 @@ fn key(message: &str, given: &str, text: &str, at: usize) -> Option<Words> {
             .lines()
             .position(|line| line.trim_start().starts_with(&once));
         let help = match (is_table, first) {
+            _ if let Some((line, other)) = nearly_the_same_list(text, at) => {
+                format!("line {line} has [[{other}]]: write it as in the other tables")
+            }
             (true, _) => format!(
                 "keep one of the two; each item of a list is [[{given}]], with two brackets"
             ),
@@ -119,6 +125,197 @@ fn key(message: &str, given: &str, text: &str, at: usize) -> Option<Words> {
         format!("add `{name} = ...` to this table")
     };
     Some((format!("the key `{name}` is missing"), help))
+}
+
+/// A list of tables whose name is nearly that of the table at `at`, with its line: `[[task]]` among `[[tasks]]`.
+fn nearly_the_same_list(text: &str, at: usize) -> Option<(usize, &str)> {
+    let (_, line) = line_of(text, at);
+    let name = line.trim_start().trim_start_matches('[');
+    let name = name.split(['.', ']']).next()?.trim();
+    let lists = text.lines().enumerate().filter_map(|(i, line)| {
+        let (other, _) = line.trim_start().strip_prefix("[[")?.split_once("]]")?;
+        Some((i + 1, other.trim()))
+    });
+    lists
+        .filter(|(_, other)| *other != name && !other.contains('.'))
+        .find(|(_, other)| nearest(other, std::iter::once(name)).is_some())
+}
+
+/// Something that stands where a value does, and not in quotes: a text, or a number with more beside it.
+fn not_quoted(message: &str, given: &str, expressions: bool) -> Option<Words> {
+    let is_date = message.starts_with("invalid date");
+    if !is_date && !message.starts_with("string values must be quoted") {
+        return None;
+    }
+    let given = given.trim_end_matches([' ', '\t']);
+    let first = given.chars().next()?;
+    let rest = &given[first.len_utf8()..];
+    if first.is_whitespace() || ('\u{200b}'..='\u{200f}').contains(&first) || first == '\u{feff}' {
+        let code = first as u32;
+        return Some((
+            format!(
+                "the character U+{code:04X} stands here, which looks like a space or like nothing"
+            ),
+            "write an ordinary space in its place".to_owned(),
+        ));
+    }
+    if given.len() > 60
+        || is_date
+            && given
+                .chars()
+                .all(|c| !c.is_alphabetic() || "TZtz".contains(c))
+    {
+        return None;
+    }
+    if let Some(words) = typeset(given, first, rest) {
+        return Some(words);
+    }
+    let mut parts = given
+        .split([' ', '\t', ';'])
+        .filter(|part| !part.is_empty());
+    let numbers: Option<Vec<&str>> = parts
+        .by_ref()
+        .map(|part| part.parse::<f64>().is_ok().then_some(part))
+        .collect();
+    if let Some(numbers) = numbers.filter(|numbers| numbers.len() > 1) {
+        return Some((
+            format!("no `,` stands between the elements `{given}`"),
+            format!("write {}", numbers.join(", ")),
+        ));
+    }
+    let calculates = given.contains(['*', '/', '(']) && !given.contains('\\');
+    if expressions && calculates {
+        return Some((
+            format!("`{given}` is not in quotes"),
+            format!("an expression stands in quotes and begins with =: \"= {given}\""),
+        ));
+    }
+    let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
+    let number = given.trim_start_matches(|c: char| !is_of_number(c) && c != '-');
+    let end = number[usize::from(number.starts_with('-'))..].find(|c| !is_of_number(c));
+    let end = end.map_or(number.len(), |end| {
+        end + usize::from(number.starts_with('-'))
+    });
+    let behind = number[end..].trim_start();
+    let has_unit =
+        behind.is_empty() || behind.starts_with(|c: char| c.is_alphabetic() || "%°".contains(c));
+    if !is_date
+        && number.len() + 1 >= given.len()
+        && has_unit
+        && number[..end].parse::<f64>().is_ok()
+    {
+        return Some((
+            format!("`{given}` is more than a number"),
+            format!("write {} alone: the unit is in the key", &number[..end]),
+        ));
+    }
+    Some((
+        format!("`{given}` is not in quotes"),
+        format!("text stands in quotes: \"{given}\""),
+    ))
+}
+
+/// Signs that a word processor writes in place of those of the keyboard.
+fn typeset(given: &str, first: char, rest: &str) -> Option<Words> {
+    let curly = ['“', '”', '„', '‟', '‘', '’', '‚', '«', '»'];
+    if curly.contains(&first) {
+        let text = given.trim_matches(curly);
+        return Some((
+            format!("`{given}` has typographic quotes"),
+            format!("write straight ones: \"{text}\""),
+        ));
+    }
+    if ['−', '–', '—'].contains(&first) {
+        return Some((
+            format!("`{given}` begins with a dash that is no minus sign"),
+            format!("write `-{rest}`"),
+        ));
+    }
+    None
+}
+
+/// A list or a table that is not closed, or closed too often, and strings that end where they should not.
+fn brackets(message: &str, text: &str, at: usize) -> Option<Words> {
+    let behind = text.get(at..)?;
+    let words = |message: String, help: &str| Some((message, help.to_owned()));
+    let of_table = [
+        "missing key for inline table element",
+        "missing comma between key-value pairs",
+        "extra assignment between key-value pairs",
+        "invalid inline table element",
+    ];
+    if of_table.iter().any(|known| message.starts_with(known)) {
+        let line = opened_in(&text[..at]).map_or(String::new(), |line| format!(" of line {line}"));
+        return words(
+            format!("the table `{{ }}`{line} is neither closed here nor goes on"),
+            "put a `}` or a `,` before this",
+        );
+    }
+    if message.starts_with("extra comma in array") {
+        return words(
+            "between two commas an element is missing".to_owned(),
+            "take one of them out",
+        );
+    }
+    if message.starts_with("missing escaped value") || message.contains("unicode value") {
+        return words(
+            "a backslash in a string begins a character such as `\\n`".to_owned(),
+            "write `\\\\` for a backslash, or the text in single quotes: '...'",
+        );
+    }
+    if message.starts_with("invalid multi-line basic string") {
+        let opened = text.rfind("\"\"\"").map_or(1, |at| line_number(text, at));
+        return words(
+            format!("the string that begins with `\"\"\"` in line {opened} is not closed"),
+            "end it with `\"\"\"`",
+        );
+    }
+    let (_, line) = line_of(text, at);
+    if ["<<<<<<<", "=======", ">>>>>>>"]
+        .iter()
+        .any(|mark| line.starts_with(mark))
+    {
+        return words(
+            "a mark of two versions that Git could not merge".to_owned(),
+            "keep one of the two versions, and take the three marks out",
+        );
+    }
+    if !message.starts_with("unexpected key or value") {
+        return None;
+    }
+    match behind.chars().next() {
+        Some(bracket @ ('}' | ']')) => words(
+            format!("a `{bracket}` that closes nothing"),
+            "take it out, or open it before",
+        ),
+        Some(_) if text[..at].trim_end().ends_with('"') => words(
+            "the string ends before this".to_owned(),
+            "a quote inside of a string is written `\\\"`",
+        ),
+        _ => None,
+    }
+}
+
+/// The line of the last `{` that is not closed in a text.
+fn opened_in(text: &str) -> Option<usize> {
+    let mut closed = 0_usize;
+    let at = text.char_indices().rev().find(|(_, c)| match c {
+        '}' => {
+            closed += 1;
+            false
+        }
+        '{' if closed > 0 => {
+            closed -= 1;
+            false
+        }
+        c => *c == '{',
+    });
+    at.map(|(at, _)| line_number(text, at))
+}
+
+/// The line of byte `at`, from one.
+fn line_number(text: &str, at: usize) -> usize {
+    text[..at].matches('\n').count() + 1
 }
 
 /// A value of a wrong type or length.
@@ -226,21 +423,27 @@ fn in_our_words(expected: &str) -> String {
 
 /// A text that is not TOML.
 fn syntax(message: &str, text: &str, at: usize) -> Words {
-    if message.starts_with("invalid float") || message.contains("integer number") {
-        let message = match word_at(text, at) {
+    let of_numbers = [
+        "invalid float",
+        "invalid fraction",
+        "invalid mantissa",
+        "unexpected leading zero",
+    ];
+    if of_numbers.iter().any(|known| message.starts_with(known))
+        || message.contains("integer number")
+    {
+        let word = word_at(text, at);
+        if let Some(date) = word.and_then(day_month_year) {
+            return (
+                format!("`{}` is not a date", word.unwrap_or_default()),
+                format!("write the year first, and a time with its zone: {date}T23:59:00+01:00"),
+            );
+        }
+        let message = match word {
             Some(word) => format!("`{word}` is not a number"),
             None => "this is not a number".to_owned(),
         };
         return (message, "a number is such as 2, -0.5 or 1e-3".to_owned());
-    }
-    if message.starts_with("string values must be quoted") {
-        let word = word_at(text, at);
-        let message = match word {
-            Some(word) => format!("`{word}` is not in quotes"),
-            None => "a text without quotes".to_owned(),
-        };
-        let word = word.unwrap_or("lab");
-        return (message, format!("text stands in quotes: \"{word}\""));
     }
     let (message, help) = if message.starts_with("invalid basic string") {
         (
@@ -256,6 +459,16 @@ fn syntax(message: &str, text: &str, at: usize) -> Words {
         (message, LINES)
     };
     (message.to_owned(), help.to_owned())
+}
+
+/// A date such as `27.11.2026` with its year first.
+fn day_month_year(word: &str) -> Option<String> {
+    let mut parts = word.split('.');
+    let (day, month, year) = (parts.next()?, parts.next()?, parts.next()?);
+    let [day, month] = [day, month].map(|part| part.parse::<u8>().ok());
+    let is_year = year.len() == 4 && year.parse::<u16>().is_ok();
+    (is_year && parts.next().is_none()).then_some(())?;
+    Some(format!("{year}-{:02}-{:02}", month?, day?))
 }
 
 /// What to write for a number such as `0,5` that is the value at which the reader stopped.
@@ -447,6 +660,137 @@ mod tests {
             TomlRefusal::from_error(&error, text).help.as_deref(),
             Some(LINES)
         );
+    }
+
+    #[test]
+    fn slips_of_the_keyboard_are_known() {
+        for (text, message, help) in [
+            (
+                "a = [0.7 -1.1]",
+                "no `,` stands between the elements `0.7 -1.1`",
+                "write 0.7, -1.1",
+            ),
+            (
+                "a = [0.7; -1.1]",
+                "no `,` stands between the elements `0.7; -1.1`",
+                "write 0.7, -1.1",
+            ),
+            (
+                "a = \u{2212}1.1",
+                "`\u{2212}1.1` begins with a dash that is no minus sign",
+                "write `-1.1`",
+            ),
+            (
+                "a = \u{201c}rrbot\u{201d}",
+                "`\u{201c}rrbot\u{201d}` has typographic quotes",
+                "write straight ones: \"rrbot\"",
+            ),
+            (
+                "a = 6 points",
+                "`6 points` is more than a number",
+                "write 6 alone: the unit is in the key",
+            ),
+            (
+                "a = 250%",
+                "`250%` is more than a number",
+                "write 250 alone: the unit is in the key",
+            ),
+            (
+                "a = ~6",
+                "`~6` is more than a number",
+                "write 6 alone: the unit is in the key",
+            ),
+            (
+                "a = [pi/2, -1.1]",
+                "`pi/2` is not in quotes",
+                "an expression stands in quotes and begins with =: \"= pi/2\"",
+            ),
+            (
+                "a =\u{a0}6.0",
+                "the character U+00A0 stands here, which looks like a space or like nothing",
+                "write an ordinary space in its place",
+            ),
+            (
+                "a = 01-kinematics",
+                "`01-kinematics` is not in quotes",
+                "text stands in quotes: \"01-kinematics\"",
+            ),
+            (
+                "a = { b = 1e-4, c = 2\n\n[[d]]",
+                "the table `{ }` of line 1 is neither closed here nor goes on",
+                "put a `}` or a `,` before this",
+            ),
+            (
+                "a = { b = 1e-4 c = 5e-3 }",
+                "the table `{ }` of line 1 is neither closed here nor goes on",
+                "put a `}` or a `,` before this",
+            ),
+            (
+                "a = { b = { c = 0.39, d = 1 }\ne = 2",
+                "the table `{ }` of line 1 is neither closed here nor goes on",
+                "put a `}` or a `,` before this",
+            ),
+            (
+                "a = { b = { c = 0.39 } } }",
+                "a `}` that closes nothing",
+                "take it out, or open it before",
+            ),
+            (
+                "x = 1\na = \"\"\"abc\nb = 1\n",
+                "the string that begins with `\"\"\"` in line 2 is not closed",
+                "end it with `\"\"\"`",
+            ),
+            (
+                "a = 27.11.2026",
+                "`27.11.2026` is not a date",
+                "write the year first, and a time with its zone: 2026-11-27T23:59:00+01:00",
+            ),
+            (
+                "a = 06",
+                "`06` is not a number",
+                "a number is such as 2, -0.5 or 1e-3",
+            ),
+            (
+                "a = .5",
+                "`.5` is not a number",
+                "a number is such as 2, -0.5 or 1e-3",
+            ),
+            (
+                "a = [1,,2]",
+                "between two commas an element is missing",
+                "take one of them out",
+            ),
+            (
+                "a = \"C:\\Users\"",
+                "a backslash in a string begins a character such as `\\n`",
+                "write `\\\\` for a backslash, or the text in single quotes: '...'",
+            ),
+            (
+                "a = \"in \"radians\" here\"",
+                "the string ends before this",
+                "a quote inside of a string is written `\\\"`",
+            ),
+            (
+                "<<<<<<< HEAD\n",
+                "a mark of two versions that Git could not merge",
+                "keep one of the two versions, and take the three marks out",
+            ),
+            (
+                "[[tasks]]\n[tasks.on]\n[[task]]\n[tasks.on]",
+                "the key `on` is defined twice",
+                "line 3 has [[task]]: write it as in the other tables",
+            ),
+            (
+                "[[task]]\n[tasks.on]\n[[tasks]]\n",
+                "the key `tasks` is defined twice",
+                "line 1 has [[task]]: write it as in the other tables",
+            ),
+        ] {
+            let error = toml::from_str::<toml::Table>(text).expect_err(text);
+            let refusal = TomlRefusal::with_expressions(&error, text);
+            assert_eq!(refusal.message, message, "{text}: {error}");
+            assert_eq!(refusal.help.as_deref(), Some(help), "{text}: {error}");
+        }
     }
 
     #[test]
