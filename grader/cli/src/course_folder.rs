@@ -114,19 +114,21 @@ impl Course {
             if let Some(student) = student {
                 self.person(student.as_str()).map_err(|_| {
                     let known = self.roster.people().iter().map(|person| person.id.as_str());
+                    let near = suggest(student.as_str(), "ids", known.take(20));
                     Failure::broken(
                         format!(
                             "{FIXES_FILE} names the student `{student}`, who is not in the roster"
                         ),
-                        &suggest(student.as_str(), "ids", known.take(20)),
+                        &format!("{FIXES_FILE} or the roster has it wrong; {near}"),
                     )
                 })?;
             }
             if self.file.lab(lab).is_none() {
                 let known = self.file.labs.iter().map(|lab| lab.name.as_str());
+                let near = suggest(lab, "labs", known);
                 return Err(Failure::broken(
                     format!("{FIXES_FILE} names the lab `{lab}`, which is not one of the course"),
-                    &suggest(lab, "labs", known),
+                    &format!("{FIXES_FILE} or {COURSE_FILE} has it wrong; {near}"),
                 ));
             }
         }

@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use kinemark_sim::text::nearest;
+
 use crate::course_text::decoded;
 use crate::student::{StudentId, folded};
 
@@ -64,7 +66,7 @@ impl Roster {
     ///
     /// # Errors
     /// A header without `id`, an id twice or one that differs from another only in case or composition, an lms_id or username of two
-    /// people.
+    /// people, a column that nearly has a name with a meaning, more fields than the header has.
     pub fn parse(path: &str, bytes: &[u8]) -> Result<Self, RosterError> {
         let text = decoded(bytes);
         let error = |line: u64, problem: String, help: &str| RosterError {
@@ -106,6 +108,18 @@ impl Roster {
                     "a field goes on over the end of its line".to_owned(),
                     "close the quote `\"` in this line, or take it out",
                 ));
+            }
+            let beyond = record.iter().skip(header.len());
+            if !beyond.clone().all(str::is_empty) {
+                let problem = format!(
+                    "{} fields, where the header has {}",
+                    record.len(),
+                    header.len()
+                );
+                return Err(error(line, problem, MORE_FIELDS));
+            }
+            if let Some((problem, help)) = is_no_id(&field("id")) {
+                return Err(error(line, problem, help));
             }
             let id = StudentId::new(&field("id"))
                 .map_err(|why| error(line, why, "give everybody an id of their own"))?;
@@ -179,12 +193,58 @@ impl Taken {
     }
 }
 
+/// What to do about a line with too many fields.
+const MORE_FIELDS: &str = "put a field that has the sign between fields in it into quotes, such as \"Lee, Ann\", or take the sign out";
+
+/// Why a text is no id that somebody chose, with what to do: it has other fields in it, or a spreadsheet has changed it.
+fn is_no_id(text: &str) -> Option<(String, &'static str)> {
+    // several fields in one
+    if [",", ";", "\t"]
+        .iter()
+        .any(|sign| text.matches(sign).count() > 1)
+    {
+        let problem = format!("the id `{text}` has the sign between fields in it");
+        return Some((problem, "use the same sign in all lines"));
+    }
+    let (number, power) = text.split_once(['E', 'e'])?;
+    let is_number = number.contains(['.', ',']) && number.chars().all(|c| !c.is_alphabetic());
+    let is_power = power.strip_prefix(['+', '-'])?.parse::<u8>().is_ok();
+    (is_number && is_power).then(|| {
+        (
+            format!("the id `{text}` was a long number that a spreadsheet has shortened"),
+            "write the number itself; in the spreadsheet, format the column as text",
+        )
+    })
+}
+
+/// The name of a column without what people put between its words.
+fn plain_name(name: &str) -> String {
+    folded(name).replace(['-', '_', ' ', '.'], "")
+}
+
+/// A column that is nearly one with a meaning, which no other column is; with that one.
+fn misspelt<'h>(
+    header: &'h csv::StringRecord,
+    at: &BTreeMap<&'static str, usize>,
+) -> Option<(&'h str, &'static str)> {
+    let free = || COLUMNS.into_iter().filter(|known| !at.contains_key(known));
+    let names = header.iter().enumerate();
+    let mut others = names.filter(|(i, _)| !at.values().any(|known| known == i));
+    others.find_map(|(_, name)| {
+        // an `id` is near to too much
+        let known = free().filter(|known| known.len() > 2);
+        Some((name, nearest(&plain_name(name), known)?))
+    })
+}
+
 /// Where the columns are.
 fn columns(header: &csv::StringRecord) -> Result<BTreeMap<&'static str, usize>, (String, String)> {
     let mut at = BTreeMap::new();
     for (i, name) in header.iter().enumerate() {
         // any other is a column for people
-        let known = COLUMNS.iter().find(|known| folded(name) == **known);
+        let known = COLUMNS
+            .iter()
+            .find(|known| plain_name(name) == plain_name(known));
         if let Some(known) = known
             && at.insert(*known, i).is_some()
         {
@@ -195,7 +255,13 @@ fn columns(header: &csv::StringRecord) -> Result<BTreeMap<&'static str, usize>, 
         }
     }
     if at.contains_key("id") {
-        return Ok(at);
+        return match misspelt(header, &at) {
+            None => Ok(at),
+            Some((name, known)) => Err((
+                format!("the column `{name}` would not be read"),
+                format!("did you mean `{known}`? A column for people alone needs another name"),
+            )),
+        };
     }
     let found: Vec<&str> = header.iter().collect();
     Err((
@@ -221,11 +287,12 @@ mod tests {
 
     #[test]
     fn a_roster_of_a_spreadsheet_is_read() {
-        let text = "\u{feff}ID;Name;E-Mail;section\r\ns1;\"Müller; Jörg\";x;A\r\n\r\ns2;Öz;;B\r\n";
+        let text = "\u{feff}ID;Name;E-Mail;section;points\r\ns1;\"Müller; Jörg\";x;A;1;\r\n\r\ns2;Öz;;B\r\n";
         let roster = Roster::parse("roster.csv", text.as_bytes()).unwrap();
         let people = roster.people();
         assert_eq!(people.len(), 2);
         assert_eq!(people[0].name, "Müller; Jörg");
+        assert_eq!(people[0].email, "x");
         assert_eq!(
             (people[1].section.as_str(), people[1].email.as_str()),
             ("B", "")
@@ -244,6 +311,19 @@ mod tests {
             ("id,lms_id\ns1,7\ns2,7\n", "line 2 has the lms_id `7`, too"),
             ("name\nA\n", "there is no column `id`; found: name"),
             ("id,id\ns1,s2\n", "`id` is there twice"),
+            (
+                "id,sectoin\ns1,A\n",
+                "the column `sectoin` would not be read",
+            ),
+            (
+                "id,name,section\ns1,Lee, Ann,B\n",
+                "4 fields, where the header has 3",
+            ),
+            (
+                "id,name,section\ns1;Ann;B\n",
+                "has the sign between fields in it",
+            ),
+            ("id\n1.00104E+06\n", "that a spreadsheet has shortened"),
             ("id,name\n", "nobody is in it"),
             ("id,name\n,A\n", "the student id is empty"),
         ] {

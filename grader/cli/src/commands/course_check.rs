@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::process::ExitCode;
 
 use kinemark_course::course_file::CourseLab;
-use kinemark_course::fixes::{FIXES_FILE, PointsChange};
+use kinemark_course::fixes::{Extension, FIXES_FILE, PointsChange};
 use kinemark_course::public::public_part;
 use kinemark_course::staffed_lab::{StaffedLab, engine_id};
 use kinemark_grader::lab::Task;
@@ -62,6 +62,7 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
                 .into_iter()
                 .map(|(_, row)| row),
         );
+        rows.extend(extensions(&course, rules));
     }
     if args.json {
         output::print_list("checks", &rows)?;
@@ -193,6 +194,23 @@ fn lab_row(course: &Course, rules: &CourseLab, lab: &StaffedLab) -> Row {
         problem,
         help,
     }
+}
+
+/// Extensions that give less time than everybody has.
+fn extensions(course: &Course, rules: &CourseLab) -> Vec<Row> {
+    let of_lab = course.fixes.extensions.iter();
+    let of_lab = of_lab.filter(|more| more.lab == rules.name);
+    let earlier = of_lab.filter(|more| rules.due.is_some_and(|due| more.due < due));
+    let row = |more: &Extension| Row {
+        what: FIXES_FILE.to_owned(),
+        found: format!("extension of {} in {}", more.student, rules.name),
+        problem: Some(format!(
+            "it ends {}, before the lab is due for everybody",
+            more.due
+        )),
+        help: Some("look at the year and the month of `due`".to_owned()),
+    };
+    earlier.map(row).collect()
 }
 
 /// Points by hand that cannot be meant: more than there are (true), or of a check that the lab has not.
