@@ -46,6 +46,13 @@ fn a_student_starts_grades_and_sees_the_warm_up_pass() {
     let ran = bed.run(&["new", "00-step-response"]);
     assert_eq!(ran.code, Some(2), "{ran:?}");
     assert!(ran.stderr.contains("already exists"), "{ran:?}");
+    let ran = bed.run(&[
+        "new",
+        "00-step-response",
+        "00-step-response/submission.rhai",
+    ]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("is a file"), "{ran:?}");
 }
 
 /// A disk that is full after the first files: nothing stays that would stand in the way of the next try.

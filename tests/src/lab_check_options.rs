@@ -47,6 +47,22 @@ fn however_many_are_tried_at_once_the_answer_is_the_same_and_a_page_shows_every_
     assert_eq!(all.code, Some(2), "{all:?}");
 }
 
+#[test]
+fn the_folder_of_a_lab_gets_the_name_and_the_option_to_type() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    for command in [&["lab", "check"][..], &["lab", "fill"], &["lab", "draws"]] {
+        let ran = bed.run(&[command, &["labs/01-kinematics/"]].concat());
+        assert_eq!(ran.code, Some(2), "{ran:?}");
+        for words in [
+            "`labs/01-kinematics/` is the folder of a lab, and a lab is given by its name",
+            "type `01-kinematics --labs labs` in place of it",
+        ] {
+            assert!(ran.stderr.contains(words), "{words}: {ran:?}");
+        }
+    }
+}
+
 /// A servo that is too stiff for a physics step of 1 ms, and a band that is thinner than what this makes of the value.
 const LAB: &str = r#"
 format = 1

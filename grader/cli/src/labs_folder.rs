@@ -9,6 +9,7 @@ use rust_embed::Embed;
 use crate::disk::Folder;
 use crate::environment;
 use crate::failure::Failure;
+use crate::output;
 
 /// Which folder the labs come from.
 #[derive(Debug, Clone, clap::Args)]
@@ -103,7 +104,7 @@ pub(crate) fn text(files: &dyn Files, lab: &str, name: &str) -> Result<String, F
 /// The name of the lab that is meant by what was typed: that name, or the only lab that begins with it.
 ///
 /// # Errors
-/// Exit code 2 where several labs begin with it.
+/// Exit code 2 where several labs begin with it, and where it is the folder of a lab.
 pub(crate) fn full_name(files: &dyn Files, typed: &str) -> Result<String, Failure> {
     let names = lab_names(files);
     if typed.is_empty() || names.iter().any(|name| name == typed) {
@@ -116,7 +117,7 @@ pub(crate) fn full_name(files: &dyn Files, typed: &str) -> Result<String, Failur
     match &begin[..] {
         [one] => Ok((*one).clone()),
         // whoever loads it says which labs there are
-        [] => Ok(typed.to_owned()),
+        [] => typed_folder(typed).map_or_else(|| Ok(typed.to_owned()), Err),
         several => {
             let names: Vec<String> = several.iter().map(|name| format!("`{name}`")).collect();
             Err(Failure::usage(
@@ -125,6 +126,26 @@ pub(crate) fn full_name(files: &dyn Files, typed: &str) -> Result<String, Failur
             ))
         }
     }
+}
+
+/// What to do where the folder of a lab was typed in place of its name.
+fn typed_folder(typed: &str) -> Option<Failure> {
+    let folder = Path::new(typed);
+    if !folder.join("lab.toml").is_file() {
+        return None;
+    }
+    let folder = folder.canonicalize().ok()?;
+    let name = folder.file_name()?.to_str()?;
+    let here = std::env::current_dir().ok()?.canonicalize().ok()?;
+    let labs = match relative(folder.parent()?, &here) {
+        labs if labs.as_os_str().is_empty() => PathBuf::from("."),
+        labs => labs,
+    };
+    let labs = output::path(&labs);
+    Some(Failure::usage(
+        format!("`{typed}` is the folder of a lab, and a lab is given by its name"),
+        &format!("type `{name} --labs {labs}` in place of it"),
+    ))
 }
 
 /// Whether a folder is one of labs, which has a robots folder in it: another project's `labs` is none.

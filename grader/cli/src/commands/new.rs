@@ -73,6 +73,12 @@ struct Written {
 pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
     let Chosen { lab, files, .. } = chosen_variant::choose(&args.lab, &args.from, None)?;
     let dir = args.dir.clone().unwrap_or_else(|| PathBuf::from(&lab.name));
+    if dir.exists() && !dir.is_dir() {
+        return Err(Failure::usage(
+            format!("`{}` is a file", dir.display()),
+            "name a folder: it is made where there is none",
+        ));
+    }
     let language = Language::from(args.lang);
     let written = working_folder(files.as_ref(), &lab, language)
         .map_err(|error| Failure::diagnostic(BROKEN, error))?;
