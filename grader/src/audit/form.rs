@@ -42,6 +42,12 @@ impl<'a> Form<'a> {
         self.staff
     }
 
+    /// A student's submission, graded in this process as [`grade`](crate::judge::grade) does: for who grades many of them.
+    pub fn graded(&self, submission: &Submission) -> Option<Grade> {
+        let examined = examined(self.lab, self.staff, submission, &self.known)?;
+        Some(examined.graded.grade)
+    }
+
     /// A submission of the course staff, graded.
     pub(super) fn examined(&self, submission: &Source) -> Option<Examined> {
         self.examined_in(self.lab, submission)
