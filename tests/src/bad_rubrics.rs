@@ -378,6 +378,20 @@ fn every_fault_is_found_with_its_place_and_numbers() {
         ),
         (
             "hidden.toml",
+            "q_rad = [[-3.0, 3.0], [-3.0, 3.0]]",
+            "q_rad = [[-180.0, 180.0], [-180.0, 180.0]]",
+            "reach",
+            "fk/other angles: at [",
+        ),
+        (
+            "hidden.toml",
+            "[[draws]]\n",
+            "[[draws]]\ntask = \"fk\"\nclass = \"other angles\"\ncount = 5\nq_rad = [[-3.0, 3.0], [-3.0, 3.0]]\n\n[[draws]]\n",
+            "hidden",
+            "fk/other angles: it draws the numbers of a draw before it",
+        ),
+        (
+            "hidden.toml",
             "a long one that nobody can guess",
             "a",
             "salt",
@@ -495,6 +509,7 @@ fn words_of_the_brief_are_held_to_what_is_graded() {
             Some("out: the brief says 1.25, which differs from student to student, without a mark"),
         ),
         ("The other place is at 1.25<!-- = out --> m.", None),
+        ("The other place is at 1<!-- out --> m.", Some("line ")),
     ] {
         let own = own_lab().with(
             "lab.toml",

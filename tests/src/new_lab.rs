@@ -55,6 +55,7 @@ fn inverse_kinematics(robot, position) {
 }
 ";
 
+// long: one lab, from the first command to the last
 #[test]
 fn a_new_lab_has_no_problem_but_its_todos_and_none_of_those_once_they_are_done() {
     let bed = TestBed::new();
@@ -118,7 +119,22 @@ fn a_new_lab_has_no_problem_but_its_todos_and_none_of_those_once_they_are_done()
         .iter()
         .map(|row| (row.0.as_str(), row.1.as_str()))
         .collect();
-    assert_eq!(kinds, [("mutants", "")], "{found:#?}");
+    let todo = ("rubric", "names");
+    let (todos, rest): (Vec<_>, Vec<_>) = kinds.into_iter().partition(|kind| *kind == todo);
+    assert_eq!(rest, [("mutants", "")], "{found:#?}");
+    // the brief, and title and hints of each task and check
+    assert!(todos.len() > 5, "{found:#?}");
+    for file in ["labs/10-first/lab.toml", "labs/10-first/brief.md"] {
+        let text = std::fs::read_to_string(bed.path(file)).expect("a file");
+        // hints that are all the same would be another doubt
+        let mut parts = text.split("TODO").enumerate();
+        let (_, first) = parts.next().expect("a part");
+        let rest = parts.map(|(i, part)| format!("Decided {i}{part}"));
+        let done: String = std::iter::once(first.to_owned()).chain(rest).collect();
+        bed.write(file, done);
+    }
+    let found = problems(&bed, "10-first");
+    assert_eq!(found.len(), 1, "{found:#?}");
 
     // it is never replaced
     let ran = bed.run(&["lab", "new", "10-first", "--task", "fk"]);
@@ -186,7 +202,13 @@ fn a_copy_of_a_lab_has_its_own_numbers_and_no_problem_once_it_is_filled() {
     let ran = bed.run(&["lab", "fill", "10-reach"]);
     assert_eq!(ran.code, Some(0), "{ran:?}");
     // but for a mutant that was made for the numbers of before: it types angles in, and shows other checks no more
-    for (tried, name, problem) in problems(&bed, "10-reach") {
+    let todo = "brief: it still says TODO";
+    let found = problems(&bed, "10-reach");
+    assert!(
+        found.iter().any(|(.., problem)| problem == todo),
+        "{found:?}"
+    );
+    for (tried, name, problem) in found.into_iter().filter(|(.., problem)| problem != todo) {
         assert_eq!(
             (tried.as_str(), name.as_str()),
             ("rubric", "dead"),

@@ -22,7 +22,7 @@ mod variants;
 use kinemark_sim::text::Source;
 use serde::Serialize;
 
-use crate::lab::brief::{BEGIN, END, has_place_for_grading, with_numbers};
+use crate::lab::brief::{BEGIN, END, has_place_for_grading, pictures, with_numbers};
 use crate::lab::staff::Staff;
 use crate::lab::{Lab, Task, TaskWork};
 use crate::record::grade::Grade;
@@ -93,8 +93,16 @@ impl Audit {
     }
 
     /// Checks the brief: it exists, its numbers can be computed for every variant, its formulas can be drawn (`formula` is what is wrong
-    /// with one, in words), and it marks the position of the table of points.
-    pub fn brief(&mut self, lab: &Lab, brief: Option<&str>, formula: Option<&str>) {
+    /// with one, in words), its pictures are among the lab's `files`, and it marks the position of the table of points.
+    pub fn brief(
+        &mut self,
+        lab: &Lab,
+        brief: Option<&str>,
+        formula: Option<&str>,
+        files: &[String],
+    ) {
+        let missing =
+            |brief| pictures(brief).find(|picture| !files.iter().any(|file| file == picture));
         let problem = match brief.map(|brief| (brief, with_numbers(brief, lab))) {
             None => Some((
                 "there is no brief.md".to_owned(),
@@ -107,6 +115,10 @@ impl Audit {
             Some((_, Ok(_))) if let Some(why) = formula => Some((
                 format!("brief.md: {why}"),
                 "a formula is LaTeX between `$` and `$`, or `$$` and `$$`; a dollar sign is `\\$`",
+            )),
+            Some((brief, Ok(_))) if let Some(picture) = missing(brief) => Some((
+                format!("brief.md shows the picture `{picture}`, and there is no such file"),
+                "put the picture beside brief.md, or write its name as the file has it",
             )),
             Some((brief, Ok(_))) if !has_place_for_grading(brief) => Some((
                 format!(
@@ -141,6 +153,29 @@ impl Audit {
             (what, help)
         });
         self.add((Tried::Starter, file), None, None, problem);
+    }
+
+    /// Doubts a starter in another language that has most of the solution in that language in it.
+    pub fn starter_beside_solution(&mut self, file: &str, starter: &str, solution: &str) {
+        /// A shorter line is in every program.
+        const TELLING: usize = 16;
+        let lines = |text: &'_ str| -> Vec<String> {
+            let lines = text.lines().map(|line| line.trim().to_owned());
+            lines.filter(|line| line.len() >= TELLING).collect()
+        };
+        let (starter, solution) = (lines(starter), lines(solution));
+        let given = solution
+            .iter()
+            .filter(|line| starter.contains(line))
+            .count();
+        if 2 * given > solution.len() {
+            let what = format!(
+                "{file} has {given} of {} lines of the reference solution",
+                solution.len()
+            );
+            let help = "leave the functions empty, as the starter in Rhai does";
+            self.add((Tried::Starter, file), None, None, Some((what, help)));
+        }
     }
 
     /// Tries the reference solution in the form `form` of the lab.

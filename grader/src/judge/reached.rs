@@ -10,7 +10,7 @@ use kinemark_sim::trace::Trace;
 
 use super::motion_judge::MotionJudge;
 use crate::attempt::{Attempt, Ended};
-use crate::check::{Check, Finding, FromReference, MotionCheck, Reached};
+use crate::check::{Check, Finding, FromReference, MotionCheck, MotionFacts, Reached};
 use crate::record::graded::Curve;
 use crate::submission::handed_in::Submission;
 use crate::task::joint_units::JointUnits;
@@ -98,8 +98,9 @@ impl MotionJudge<'_> {
             let value = measure.and_then(|measure| measure.value);
             let value = value.filter(|_| needs == FromReference::Value);
             if needs == FromReference::Value && value.is_none() {
+                let why = self.first_loss(&facts).unwrap_or_default();
                 return Err(format!(
-                    "the reference solution has no value for \"{}\"",
+                    "the reference solution has no value for \"{}\"{why}",
                     check.title
                 ));
             }
@@ -111,6 +112,17 @@ impl MotionJudge<'_> {
             });
         }
         Ok(reached)
+    }
+
+    /// What the first of the other checks says in which a run of the reference solution loses points.
+    fn first_loss(&self, facts: &MotionFacts<'_>) -> Option<String> {
+        let others = self.checks.iter();
+        let mut others = others.filter(|check| needs_of(check) == FromReference::Nothing);
+        others.find_map(|check| {
+            let finding = check.kind.judge(facts);
+            let evidence = finding.evidence.first().filter(|_| finding.score < 1.0)?;
+            Some(format!("; in \"{}\" {}", check.title, evidence.message))
+        })
     }
 
     /// Whether a curve of the reference solution may be seen: not in a unit that the task commands, because that could be typed in.

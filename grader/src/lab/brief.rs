@@ -31,6 +31,15 @@ pub fn has_place_for_grading(brief: &str) -> bool {
     behind.is_some_and(|rest| rest.contains(END))
 }
 
+/// The files of the pictures in a brief, `![...](frame.svg)`, in their order.
+pub fn pictures(brief: &str) -> impl Iterator<Item = &str> {
+    let begun = brief.split("![").skip(1);
+    let paths = begun.filter_map(|rest| Some(rest.split_once("](")?.1.split_once(')')?.0));
+    // a title may stand behind the path
+    let paths = paths.filter_map(|path| path.split_whitespace().next());
+    paths.filter(|path| !path.contains("://"))
+}
+
 /// How a mark begins that stands behind a number, invisible where the brief is shown: `3.0<!-- = line_x -->`.
 const MARK: &str = "<!-- =";
 const MARK_END: &str = "-->";
@@ -194,6 +203,12 @@ pub fn without_marks(brief: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn pictures_are_found_with_and_without_a_title() {
+        let brief = "![an arm](arm.svg) and [a page](page.md), ![a plot](p.svg \"a plot\"), ![](https://a.b/c.svg)";
+        assert_eq!(pictures(brief).collect::<Vec<_>>(), ["arm.svg", "p.svg"]);
+    }
     use crate::lab::copies::Copies;
 
     const LAB: &str = r#"

@@ -57,7 +57,7 @@ pub fn study(lab: &Lab, files: &dyn Files) {
     let formulas = formula_problems(&brief);
     let formula = formulas.first().map(ToString::to_string);
     let mut audit = Audit::new(lab);
-    audit.brief(lab, Some(&brief), formula.as_deref());
+    audit.brief(lab, Some(&brief), formula.as_deref(), &[]);
     for task in &lab.tasks {
         assert!(task.max_points() > 0.0);
         task.needs_reference();

@@ -89,6 +89,13 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         )
     })?;
     let own = staff_of(&reference, &lab, None)?;
+    // another option that conflicts with --mutate would hide that these need it
+    if !args.mutate.mutate && args.mutate.is_given() {
+        return Err(Failure::usage(
+            "--draw, --keep and --as are about the changes of the solution".to_owned(),
+            "add --mutate, which tries nothing else: leave --quick, --salts, --variants and --page out",
+        ));
+    }
     if args.mutate.mutate {
         let output = (args.json, args.jobs.map(usize::from));
         return lab_mutate::run(&args.mutate, output, (&lab, &own), &reference);
@@ -128,9 +135,14 @@ fn audited(
     let mut audit = Audit::new(lab);
     let formulas = brief.as_deref().map(formula_problems).unwrap_or_default();
     let formula = formulas.first().map(ToString::to_string);
-    audit.brief(lab, brief.as_deref(), formula.as_deref());
+    audit.brief(
+        lab,
+        brief.as_deref(),
+        formula.as_deref(),
+        &files.list(&lab.name),
+    );
     let starter_grade = audit.take(all.starter);
-    audit_other_starters(&mut audit, files, lab)?;
+    audit_other_starters(&mut audit, files, reference, lab)?;
     let reference_grade = audit.take(all.reference);
     if let Some(grade) = &reference_grade {
         audit.measure_reference(grade);
@@ -180,7 +192,12 @@ fn show(args: &Args, audit: &Audit) -> Result<(), Failure> {
 }
 
 /// Looks into the starters of other languages, where there are any.
-fn audit_other_starters(audit: &mut Audit, files: &dyn Files, lab: &Lab) -> Result<(), Failure> {
+fn audit_other_starters(
+    audit: &mut Audit,
+    files: &dyn Files,
+    reference: &Folder,
+    lab: &Lab,
+) -> Result<(), Failure> {
     for language in [Language::Python, Language::Rust, Language::C] {
         let path = format!("{}/{}", lab.name, language.starter());
         let text = files.read(&path);
@@ -188,6 +205,11 @@ fn audit_other_starters(audit: &mut Audit, files: &dyn Files, lab: &Lab) -> Resu
         if let Some(text) = text {
             let defines = |name: &str| language.defines(&text, name);
             audit.compiled_starter(lab, language.starter(), &defines);
+            let solution = language.starter().replace("starter", "solution");
+            let solution = reference.read(&format!("{}/{solution}", lab.name));
+            if let Ok(Some(solution)) = solution {
+                audit.starter_beside_solution(language.starter(), &text, &solution);
+            }
         }
     }
     Ok(())

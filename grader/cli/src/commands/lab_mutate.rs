@@ -38,6 +38,13 @@ pub(crate) struct MutateArgs {
     pub(crate) kept_name: Option<String>,
 }
 
+impl MutateArgs {
+    /// Whether something is asked that only changes of the solution have.
+    pub(crate) fn is_given(&self) -> bool {
+        self.draw.is_some() || self.keep.is_some() || self.kept_name.is_some()
+    }
+}
+
 /// Tries the changes, or keeps one.
 pub(crate) fn run(
     args: &MutateArgs,

@@ -2,38 +2,17 @@
 
 use kinemark_sim::text::Dimension;
 
+use super::unused::uses_parameters;
 use super::{Doubt, Rubric};
-use crate::lab::{Lab, Task, TaskWork};
+use crate::lab::staff::HiddenCases;
+use crate::lab::{Lab, Staff, Task, TaskWork};
 use crate::task::model::{Case, Given};
 
 /// A salt of fewer characters can be tried out.
 const SHORTEST_SALT: usize = 12;
 
-/// Visible cases with the same numbers.
-pub(super) fn double_cases(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
-    for task in &rubric.lab.tasks {
-        let TaskWork::Function(function, _) = &task.work else {
-            continue;
-        };
-        for (i, case) in function.cases.iter().enumerate() {
-            let mut before = function.cases[..i].iter();
-            if let Some(first) = before.find(|first| is_same(first, case)) {
-                doubts.push(Doubt {
-                    rule: "cases",
-                    of: format!("{}/{}", task.name, case.name),
-                    what: format!(
-                        "the same numbers as case \"{}\": who fails one fails both",
-                        first.name
-                    ),
-                    help: "give it other numbers, or remove it".to_owned(),
-                });
-            }
-        }
-    }
-}
-
 /// Whether two cases give the same.
-fn is_same(a: &Case, b: &Case) -> bool {
+pub(super) fn is_same(a: &Case, b: &Case) -> bool {
     let same_given = match (&a.given, &b.given) {
         (Given::Q(a), Given::Q(b)) => a == b,
         (Given::Position { pose: a, .. }, Given::Position { pose: b, .. }) => a == b,
@@ -51,6 +30,11 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         match &task.work {
             TaskWork::Function(function, _) => {
                 let hidden = staff.draws.iter().filter(|draw| draw.task == task.name);
+                let hidden: Vec<&HiddenCases> = hidden.collect();
+                if hidden.is_empty() {
+                    doubts.push(nothing_hidden(task, "cases"));
+                }
+                doubts.extend(drawn_twice(task, &hidden));
                 for draw in hidden {
                     let of = |case: &Case| {
                         let class = case.hidden_class.as_deref().unwrap_or_default();
@@ -92,33 +76,71 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                     }
                 }
             }
-            TaskWork::Motion(..) => {
-                let mut known: Vec<&str> = Vec::new();
-                for run in staff.runs(&task.name) {
-                    // other numbers may change nothing of this task
-                    let is_visible = run
-                        .drawn
-                        .iter()
-                        .all(|(name, value)| is_of_lab(lab, name, value))
-                        || run
-                            .lab
-                            .tasks
-                            .iter()
-                            .any(|other| other.name == task.name && is_same_task(other, task));
-                    if is_visible && !known.contains(&run.class.as_str()) {
-                        known.push(&run.class);
-                        doubts.push(Doubt {
-                            rule: "hidden",
-                            of: format!("{}/{}", task.name, run.class),
-                            what: "a hidden run has the numbers of the visible one".to_owned(),
-                            help: "draw other numbers, of parameters that this task uses: who types in an answer should lose here"
-                                .to_owned(),
-                        });
-                    }
-                }
-            }
+            TaskWork::Motion(..) => of_runs(lab, staff, task, doubts),
         }
     }
+}
+
+/// The hidden runs of a motion task.
+fn of_runs(lab: &Lab, staff: &Staff, task: &Task, doubts: &mut Vec<Doubt>) {
+    let mut known: Vec<&str> = Vec::new();
+    // nothing else can differ in a run
+    if staff.runs(&task.name).is_empty() && uses_parameters(lab, task) {
+        doubts.push(nothing_hidden(task, "runs"));
+    }
+    for run in staff.runs(&task.name) {
+        // other numbers may change nothing of this task
+        let is_visible = run
+            .drawn
+            .iter()
+            .all(|(name, value)| is_of_lab(lab, name, value))
+            || run
+                .lab
+                .tasks
+                .iter()
+                .any(|other| other.name == task.name && is_same_task(other, task));
+        if is_visible && !known.contains(&run.class.as_str()) {
+            known.push(&run.class);
+            doubts.push(Doubt {
+                rule: "hidden",
+                of: format!("{}/{}", task.name, run.class),
+                what: "a hidden run has the numbers of the visible one".to_owned(),
+                help: "draw other numbers, of parameters that this task uses: who types in an answer should lose here"
+                    .to_owned(),
+            });
+        }
+    }
+}
+
+/// A task of which students see everything.
+fn nothing_hidden(task: &Task, what: &str) -> Doubt {
+    let table = if what == "runs" { "runs" } else { "draws" };
+    Doubt {
+        rule: "hidden",
+        of: task.name.clone(),
+        what: format!(
+            "it has no hidden {what}: who types in what the visible ones ask for has all points"
+        ),
+        help: format!("write [[{table}]] for it in hidden.toml"),
+    }
+}
+
+/// Two draws that give the same cases: numbers are drawn by the name of the class.
+fn drawn_twice(task: &Task, draws: &[&HiddenCases]) -> Option<Doubt> {
+    let is_again = |i: usize, draw: &HiddenCases| {
+        let mut before = draws[..i].iter().flat_map(|first| &first.cases);
+        let first = draw.cases.first();
+        first.is_some_and(|case| before.any(|known| is_same(known, case)))
+    };
+    let mut again = draws.iter().enumerate();
+    let (_, draw) = again.find(|(i, draw)| draw.cases.len() > 1 && is_again(*i, draw))?;
+    let class = draw.cases.first()?.hidden_class.as_deref()?;
+    Some(Doubt {
+        rule: "hidden",
+        of: format!("{}/{class}", task.name),
+        what: "it draws the numbers of a draw before it: who fails one fails both".to_owned(),
+        help: "give it a class of its own, and other ranges".to_owned(),
+    })
 }
 
 /// Whether two tasks with these names are the same in everything that is typed.

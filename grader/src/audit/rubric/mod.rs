@@ -11,6 +11,8 @@
 //! | `accuracy` | bands that are thinner than what the simulation is accurate to |
 //! | `brief` | what is graded and not mentioned |
 //! | `words` | words and numbers of the brief and of checks that differ from what is graded |
+//! | `names` | names in texts that nothing has, and what still says TODO |
+//! | `twice` | cases, checks, tasks and mutants that are there twice |
 //! | `lost` | checks that nobody loses, and checks that are earned for nothing |
 //!
 //! The course staff may accept a doubt, or a change of the solution that nothing notices ([`super::mutate`]), with a reason: [`Accepted`].
@@ -21,8 +23,10 @@ mod band;
 mod brief;
 mod hidden;
 mod lost;
+mod names;
 mod reach;
 mod settings;
+mod twice;
 mod unused;
 mod variants;
 mod words;
@@ -113,7 +117,11 @@ const RULES: &[Rule] = &[
         "as many branches as the robot has",
         reach::branches,
     ),
-    ("cases", "no case is there twice", hidden::double_cases),
+    (
+        "cases",
+        "no case, check, task or mutant is there twice",
+        twice::rule,
+    ),
     (
         "hidden",
         "what is hidden differs from what is visible",
@@ -122,6 +130,11 @@ const RULES: &[Rule] = &[
     ("salt", "nobody can guess it", hidden::salt),
     ("brief", "mentions what is graded", brief::rule),
     ("words", "words and numbers say what is graded", words::rule),
+    (
+        "names",
+        "what is mentioned is there, and nothing says TODO",
+        names::rule,
+    ),
     ("band", "points can be lost", band::rule),
     (
         "margin",

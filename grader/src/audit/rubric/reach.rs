@@ -10,9 +10,7 @@ use kinemark_sim::text::number::{list, metres, trimmed};
 use nalgebra::{Matrix3, Matrix6xX, Rotation3, Unit, Vector3};
 
 use super::{Doubt, Rubric};
-use crate::attempt::branches::{
-    beyond_limit, count_different, count_distinct, stands_beyond_limit,
-};
+use crate::attempt::branches::{count_different, count_distinct, stands_beyond_limit};
 use crate::lab::{Lab, Staff, Task, TaskWork};
 use crate::task::model::{Case, Function, Given, MotionTask};
 use crate::task::pose::{PoseForm, pose_at, pose_in};
@@ -76,7 +74,8 @@ fn angles_within_limits(lab: &Lab, task: &Task, case: &Case) -> Option<Doubt> {
     let Given::Q(q) = &case.given else {
         return None;
     };
-    let beyond = beyond_limit(robot_of(lab, task, case), q)?;
+    // degrees would be many whole turns
+    let beyond = stands_beyond_limit(robot_of(lab, task, case), q)?;
     Some(Doubt {
         rule: "reach",
         of: case_name(task, case),

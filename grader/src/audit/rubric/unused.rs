@@ -3,8 +3,25 @@
 use toml::Value;
 
 use super::{Doubt, Rubric};
-use crate::lab::TaskWork;
+use crate::lab::{Lab, Task, TaskWork};
 use crate::task::value::Value as Target;
+
+/// Whether a task has an expression that names a parameter.
+pub(super) fn uses_parameters(lab: &Lab, task: &Task) -> bool {
+    let table = lab.source.text().parse::<toml::Table>().ok();
+    let tasks = table
+        .as_ref()
+        .and_then(|table| table.get("tasks")?.as_array());
+    let mut tasks = tasks.into_iter().flatten();
+    let is_it = |typed: &&Value| typed.get("name").and_then(Value::as_str) == Some(&task.name);
+    let mut expressions = Vec::new();
+    if let Some(motion) = tasks.find(is_it).and_then(|typed| typed.get("motion")) {
+        texts(motion, &mut expressions);
+    }
+    let expressions = expressions.iter().filter_map(|text| text.strip_prefix('='));
+    let mut named = expressions.flat_map(names);
+    named.any(|name| lab.parameters.get(name).is_some())
+}
 
 /// Parameters that no expression of the lab names, and paths that no check does.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {

@@ -1,9 +1,38 @@
 //! Numbers of lab.toml that no student's variant has.
 
+use toml::{Table, Value as Toml};
+
 use super::{Doubt, Rubric};
+
+/// What `[variants]` says of parameters that do not vary.
+fn of_nothing(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let Ok(table) = rubric.lab.source.text().parse::<Table>() else {
+        return;
+    };
+    let variants = table.get("variants").and_then(Toml::as_table);
+    for (name, rule) in variants.into_iter().flatten() {
+        let choices = rule.get("choices").and_then(Toml::as_array);
+        let choices = choices.map_or(&[][..], Vec::as_slice);
+        let again = (1..choices.len()).find(|i| choices[..*i].contains(&choices[*i]));
+        let what = if rule.get("from").is_some() && rule.get("from") == rule.get("to") {
+            "its range has no width: everybody gets the same number".to_owned()
+        } else if let Some(again) = again {
+            format!("the choice {} is there twice", choices[again])
+        } else {
+            continue;
+        };
+        doubts.push(Doubt {
+            rule: "variants",
+            of: name.clone(),
+            what,
+            help: "widen it, or leave it out".to_owned(),
+        });
+    }
+}
 
 /// Parameters that vary, and have a value in lab.toml that no student draws: mostly a slip in a sign or in a range.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    of_nothing(rubric, doubts);
     for rule in &rubric.lab.variants {
         let Some(value) = rubric.lab.parameters.get(&rule.name) else {
             continue;

@@ -105,6 +105,8 @@ problems! {
             "write `branches = 0` for positions out of reach";
         NotOneQuantity:
             "staff::draw", "a draw is of `q_rad`, or for `inverse_kinematics` of `position_m`", "this draw", "give one of the two";
+        NotOfMotion { function: String }:
+            "staff::draw", "`{function}` is given no velocities", "this draw", "take `qd_rad_s` and `qdd_rad_s2` out";
         OtherNames { drawn: String, given: String }:
             "staff::draw", "this draw gives {drawn}, the visible cases give {given}", "this draw", "give the same names";
         UnknownDimension { name: String, known: Vec<String> }:
@@ -271,7 +273,8 @@ impl<'a> DrawReader<'a> {
             });
         }
         if qd.is_some() || qdd.is_some() {
-            return self.refuse(DrawProblem::NotOneQuantity);
+            let function = task.function.name().to_owned();
+            return self.refuse(DrawProblem::NotOfMotion { function });
         }
         match (&task.function, q, position_m) {
             (Function::Free(_), None, None) => self.values(task),

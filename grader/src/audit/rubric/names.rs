@@ -1,0 +1,154 @@
+//! Names in the brief, in hints and in what mutants say: what of `robot`, `target` and `sensors` they mention is there, and nothing waits
+//! to be written.
+
+use std::collections::BTreeSet;
+
+use super::{Doubt, Rubric};
+use crate::lab::{Task, TaskWork};
+use crate::submission::controller::Grant;
+use crate::task::value::Value;
+
+/// What a lab has not decided yet.
+const TODO: &str = "TODO";
+/// What `robot` has besides its dimensions.
+const OF_EVERY_ROBOT: [&str; 6] = ["name", "joints", "joint_names", "lower", "upper", "effort"];
+
+/// Looks at every text.
+pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let known = Known::of(rubric);
+    for (place, text) in texts(rubric) {
+        if text.contains(TODO) {
+            let times = text.matches(TODO).count();
+            doubts.push(Doubt {
+                rule: "names",
+                of: place.clone(),
+                what: match times {
+                    1 => format!("it still says {TODO}"),
+                    times => format!("it still says {TODO}, {times} times"),
+                },
+                help: "write what is missing there: students read it".to_owned(),
+            });
+        }
+        for (owner, names) in known.by_owner() {
+            let missing = members(text, owner).find(|name| !names.contains(*name));
+            if let Some(name) = missing {
+                let names: Vec<&str> = names.iter().map(String::as_str).collect();
+                doubts.push(Doubt {
+                    rule: "names",
+                    of: place.clone(),
+                    what: format!("it mentions `{owner}.{name}`, which there is not"),
+                    help: match names.is_empty() {
+                        true => format!("no task has such a `{owner}`"),
+                        false => format!("`{owner}` has {}", names.join(", ")),
+                    },
+                });
+            }
+        }
+    }
+}
+
+/// The texts that students read, each with its place.
+fn texts<'a>(rubric: &'a Rubric<'_>) -> impl Iterator<Item = (String, &'a str)> {
+    let brief = rubric.brief.map(|brief| ("brief".to_owned(), brief));
+    let of_tasks = rubric.lab.tasks.iter().flat_map(of_task);
+    let says = rubric.staff.mutants.iter().flat_map(|mutant| {
+        let words = std::iter::once(&mutant.says).chain(mutant.says_in.values());
+        words.map(move |words| (format!("mutant {}", mutant.name), words.as_str()))
+    });
+    brief.into_iter().chain(of_tasks).chain(says)
+}
+
+fn of_task(task: &Task) -> impl Iterator<Item = (String, &str)> {
+    let title = (task.name.clone(), task.title.as_str());
+    let of_checks = task.checks().into_iter().flat_map(move |check| {
+        let texts = std::iter::once(&check.title).chain(&check.hints);
+        let place = format!("{}/{}", task.name, check.name);
+        texts.map(move |text| (place.clone(), text.as_str()))
+    });
+    std::iter::once(title).chain(of_checks)
+}
+
+/// The names that there are, in any task.
+struct Known {
+    robot: BTreeSet<String>,
+    target: BTreeSet<String>,
+    sensors: BTreeSet<String>,
+}
+
+impl Known {
+    fn of(rubric: &Rubric<'_>) -> Self {
+        let mut known = Self {
+            robot: OF_EVERY_ROBOT.map(str::to_owned).into(),
+            target: BTreeSet::new(),
+            sensors: BTreeSet::new(),
+        };
+        known
+            .robot
+            .extend(Grant::ALL.iter().map(|grant| grant.name().to_owned()));
+        for task in &rubric.lab.tasks {
+            let lab = rubric.lab.of_task(task);
+            let dimensions = lab.robot_file.dimensions().names();
+            known.robot.extend(dimensions.map(str::to_owned));
+            match &task.work {
+                TaskWork::Function(function, _) => {
+                    let robots = function
+                        .cases
+                        .iter()
+                        .filter_map(|case| case.robot.as_deref());
+                    let own = robots.flat_map(|robot| robot.dimensions().names());
+                    known.robot.extend(own.map(str::to_owned));
+                }
+                TaskWork::Motion(motion, _) => {
+                    if let Value::Map(entries) = &motion.target {
+                        known
+                            .target
+                            .extend(entries.iter().map(|(name, _)| name.clone()));
+                    }
+                    let sensors = motion.sensors.iter();
+                    known
+                        .sensors
+                        .extend(sensors.map(|sensor| sensor.name.clone()));
+                }
+            }
+        }
+        known
+    }
+
+    fn by_owner(&self) -> [(&'static str, &BTreeSet<String>); 3] {
+        [
+            ("robot", &self.robot),
+            ("target", &self.target),
+            ("sensors", &self.sensors),
+        ]
+    }
+}
+
+/// The names after `owner.` in the code of a text, `` `robot.lengths[0]` ``.
+fn members<'t>(text: &'t str, owner: &'static str) -> impl Iterator<Item = &'t str> {
+    let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
+    let code = text.split('`').skip(1).step_by(2);
+    code.flat_map(move |code| {
+        code.match_indices(owner).filter_map(move |(at, _)| {
+            if code[..at].ends_with(is_of_name) {
+                return None;
+            }
+            let rest = code[at + owner.len()..].strip_prefix('.')?;
+            let end = rest.find(|c| !is_of_name(c)).unwrap_or(rest.len());
+            let is_name = rest.starts_with(|c: char| c.is_ascii_lowercase());
+            is_name.then_some(&rest[..end])
+        })
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::members;
+
+    #[test]
+    fn names_are_those_of_the_owner_and_in_code_alone() {
+        let text = "A robot.arm, `robot.link[0] + my_robot.x`, `observation.target.to`.";
+        assert_eq!(members(text, "robot").collect::<Vec<_>>(), ["link"]);
+        assert_eq!(members(text, "target").collect::<Vec<_>>(), ["to"]);
+        assert_eq!(members("`robot.KEY`", "robot").count(), 0);
+    }
+}
