@@ -164,12 +164,12 @@ fn what_is_no_such_map_is_reported_and_entries_count_for_themselves() {
     for (body, message, points) in [
         (
             "3",
-            "second_order returned 3, expected a map of damping_ratio, natural_frequency",
+            "second_order returned 3, expected entries named damping_ratio, natural_frequency",
             0.0,
         ),
         (
             "#{ natural_frequency: sqrt(given.kp / given.inertia) }",
-            "second_order returned a map of natural_frequency, without `damping_ratio`",
+            "second_order returned entries named natural_frequency, without `damping_ratio`",
             2.0,
         ),
         (

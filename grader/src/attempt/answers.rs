@@ -76,6 +76,21 @@ pub enum Answered {
     Stopped,
 }
 
+impl Answered {
+    /// The position that was answered, alone or in a pose \[m\].
+    pub fn position(&self) -> Option<Vector3<f64>> {
+        match self {
+            Self::Position(p) => Some(*p),
+            // a matrix of 4 x 4
+            Self::Pose(numbers) if numbers.len() == 16 => {
+                Some(Vector3::new(numbers[3], numbers[7], numbers[11]))
+            }
+            Self::Pose(numbers) => numbers.first_chunk().map(|p: &[f64; 3]| (*p).into()),
+            _ => None,
+        }
+    }
+}
+
 /// The error of an answer.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CaseError {

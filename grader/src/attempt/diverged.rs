@@ -86,7 +86,9 @@ fn gentler(what: &DivergenceKind, task: &MotionTask) -> String {
             "press less hard, or more slowly"
         }
         (_, Mode::Effort | Mode::Prescribed) => "command less effort, and take it back in time",
-        (_, Mode::Position | Mode::Velocity) => "command less, or more slowly",
+        (_, Mode::Position | Mode::Velocity) => {
+            "command less, or more slowly; if the arm moved away from where it should be, look at the sign of your correction, and at the unit"
+        }
     };
     help.to_owned()
 }

@@ -121,22 +121,25 @@ impl Grader<'_> {
     }
 
     /// An earlier task of the function from which such a motion is made, if it lost more than half of its points: the Jacobian for
-    /// velocities, inverse kinematics for positions. A function that is wrong in some cases alone says nothing about the motion.
+    /// velocities, and inverse kinematics for positions and where a lab has no task of the Jacobian. A function that is wrong in some cases alone says nothing about the motion.
     fn unsolved_before(&self, task: &Task, work: &MotionTask) -> Option<&str> {
-        let is_needed = |function: &Function| match work.servo.mode {
-            Mode::Velocity => matches!(function, Function::Jacobian(_)),
-            Mode::Position => matches!(function, Function::InverseKinematics(_)),
-            Mode::Effort | Mode::Prescribed => false,
+        let before = self.lab.tasks.iter();
+        let before = before.take_while(|known| known.name != task.name);
+        let of = |is: fn(&Function) -> bool| {
+            before.clone().filter(move |known| match &known.work {
+                TaskWork::Function(work, _) => is(&work.function),
+                TaskWork::Motion(..) => false,
+            })
         };
-        let before = self
-            .lab
-            .tasks
-            .iter()
-            .take_while(|known| known.name != task.name);
-        let mut functions = before.filter(|known| match &known.work {
-            TaskWork::Function(work, _) => is_needed(&work.function),
-            TaskWork::Motion(..) => false,
-        });
+        let is_jacobian: fn(&Function) -> bool =
+            |function| matches!(function, Function::Jacobian(_));
+        let is_inverse: fn(&Function) -> bool =
+            |function| matches!(function, Function::InverseKinematics(_));
+        let mut functions = match work.servo.mode {
+            Mode::Velocity if of(is_jacobian).next().is_some() => of(is_jacobian),
+            Mode::Velocity | Mode::Position => of(is_inverse),
+            Mode::Effort | Mode::Prescribed => return None,
+        };
         let lost = functions.find(|known| self.broken.contains(&known.name))?;
         Some(&lost.name)
     }

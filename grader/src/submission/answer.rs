@@ -136,7 +136,10 @@ pub fn entries(value: &Value, expected: &[(String, Entry)]) -> Vec<Result<Vec<f6
             }
             _ => {
                 let names: Vec<&str> = names().collect();
-                return Err(instead(value, &format!("a map of {}", names.join(", "))));
+                return Err(instead(
+                    value,
+                    &format!("entries named {}", names.join(", ")),
+                ));
             }
         };
         let numbers = match (should, found) {
@@ -265,12 +268,12 @@ pub(super) fn numbers(value: &Value) -> Option<Vec<f64>> {
 pub fn describe(value: &Value) -> String {
     let text = match value {
         Value::Nothing => {
-            "nothing (does the function end without `return`, or with `;`?)".to_owned()
+            "nothing (does the function end without `return`, or in Rhai with `;`?)".to_owned()
         }
         Value::Text(text) => format!("the string {text:?}"),
         Value::Map(entries) => {
             let names: Vec<&str> = entries.iter().map(|(name, _)| name.as_str()).collect();
-            format!("a map of {}", names.join(", "))
+            format!("entries named {}", names.join(", "))
         }
         Value::Other(name) => format!("a value of type {name}"),
         Value::List(_) | Value::Number(_) | Value::Boolean(_) => plain(value, 0),
@@ -286,7 +289,7 @@ pub fn describe(value: &Value) -> String {
 
 fn plain(value: &Value, depth: usize) -> String {
     match value {
-        Value::Nothing => "()".to_owned(),
+        Value::Nothing => "nothing".to_owned(),
         Value::Boolean(boolean) => boolean.to_string(),
         Value::Number(number) if number.is_finite() => trimmed(*number, 6),
         Value::Number(number) if number.is_nan() => "NaN".to_owned(),
@@ -309,7 +312,7 @@ fn plain(value: &Value, depth: usize) -> String {
             }
             format!("[{}]", texts.join(", "))
         }
-        Value::Map(_) => "a map".to_owned(),
+        Value::Map(_) => "named entries".to_owned(),
         Value::Other(name) => name.clone(),
     }
 }
@@ -415,7 +418,7 @@ mod tests {
         ];
         let answer = map(&[("b", numbers_of(&[3.0, 4.0])), ("c", Value::Nothing)]);
         let found = entries(&answer, &expected);
-        assert_eq!(found[0], Err("a map of b, c, without `a`".to_owned()));
+        assert_eq!(found[0], Err("entries named b, c, without `a`".to_owned()));
         assert_eq!(found[1], Ok(vec![3.0, 4.0]));
         let found = entries(
             &map(&[("a", Value::Number(f64::NAN)), ("b", numbers_of(&[1.0]))]),
@@ -431,7 +434,7 @@ mod tests {
         );
         assert_eq!(
             entries(&Value::Number(1.0), &expected)[0],
-            Err("1, expected a map of a, b".to_owned())
+            Err("1, expected entries named a, b".to_owned())
         );
         assert_eq!(
             entries(&Value::Number(7.0), &[number("", 1.0)]),

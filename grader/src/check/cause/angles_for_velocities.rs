@@ -11,6 +11,9 @@ use crate::task::tcp::tcp_in;
 const ON_PATH_M: f64 = 2e-3;
 /// Calls at the start that are all so.
 const CALLS: usize = 10;
+/// Where the arm stands on its path with all joints at zero, every small velocity is such an angle: then the command must lead along the
+/// path, in the end, by this share of its length. A velocity leads there as far as the hand goes in a second.
+const ALONG: f64 = 0.6;
 
 pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
     let facts = lost.facts;
@@ -29,6 +32,21 @@ pub(super) fn seen(lost: &Lost<'_>) -> Option<Cause> {
         .take(CALLS)
     {
         if beside_m(path, &stands_at(tick)?) > ON_PATH_M {
+            return None;
+        }
+    }
+    let at_zero = tcp_in(
+        facts.robot,
+        facts.names.seen_from,
+        &vec![0.0; facts.robot.n()],
+    )?;
+    if beside_m(path, &at_zero) <= ON_PATH_M {
+        let legs = path
+            .points_m
+            .windows(2)
+            .map(|ends| (ends[1] - ends[0]).norm());
+        let along_m = (stands_at(facts.last_tick())? - at_zero).norm();
+        if along_m < ALONG * legs.sum::<f64>() {
             return None;
         }
     }

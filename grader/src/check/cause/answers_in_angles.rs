@@ -67,20 +67,22 @@ fn of_forward(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
     let wrong: Vec<_> = answers
         .wrong
         .iter()
-        .filter_map(|facts| match (&facts.case.given, &facts.answer) {
-            (Given::Q(q), Answered::Position(p)) => Some((*facts, q, p)),
+        .filter_map(|facts| match &facts.case.given {
+            Given::Q(q) => Some((*facts, q, facts.answer.position()?)),
             _ => None,
         })
         .collect();
     if wrong.len() < super::LEAST_WRONG {
         return None;
     }
-    let robot = wrong[0].0.robot;
+    // a slip is of joints that the robot of every case has
+    let robots = wrong.iter().map(|(facts, ..)| facts.robot);
+    let robot = robots.min_by_key(|robot| robot.n())?;
     let slip = only_one(robot, |slip| {
         wrong.iter().all(|(facts, q, answered)| {
             let taken = slip.undone(facts.robot, q);
             let p = tcp_in(facts.robot, answers.frame, &taken);
-            p.is_some_and(|p| (p - **answered).norm() <= SAME_M)
+            p.is_some_and(|p| (p - answered).norm() <= SAME_M)
         })
     })?;
     let count = wrong.len();

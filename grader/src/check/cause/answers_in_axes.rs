@@ -33,8 +33,11 @@ pub(super) fn seen(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
 }
 
 fn positions(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
-    let both = |facts: &&CaseFacts<'_>| match (&facts.case.given, &facts.answer) {
-        (Given::Q(q), Answered::Position(p)) => Some((*p, tcp_in(facts.robot, answers.frame, q)?)),
+    let both = |facts: &&CaseFacts<'_>| match &facts.case.given {
+        Given::Q(q) => Some((
+            facts.answer.position()?,
+            tcp_in(facts.robot, answers.frame, q)?,
+        )),
         _ => None,
     };
     let wrong: Vec<(Vector3<f64>, Vector3<f64>)> = answers.wrong.iter().filter_map(both).collect();
@@ -84,10 +87,10 @@ fn positions(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
             });
         }
     }
+    // a pose may be that of another frame than the TCP, at a step from it
+    let are_positions = |facts: &&CaseFacts<'_>| matches!(facts.answer, Answered::Position(_));
     // a step that a right answer does not have is no step of all
-    answers
-        .right
-        .is_empty()
+    (answers.right.is_empty() && answers.wrong.iter().all(are_positions))
         .then(|| step(answers, &wrong))
         .flatten()
 }

@@ -19,8 +19,11 @@ pub(super) fn seen(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
             words: format!(
                 "for {refused} of {reachable} targets within reach, nothing is returned"
             ),
-            question: "From which point do you measure the distance to the target, and how large is your `cos q2` where you return nothing?"
-                .to_owned(),
+            question: match answers.wrong.first().map(|facts| facts.robot.n()) {
+                Some(2) => "From which point do you measure the distance to the target, and how large is your `cos q2` where you return nothing?",
+                _ => "Which condition of yours leads to `[]` there, and which numbers does it compare?",
+            }
+            .to_owned(),
         }
     })
 }

@@ -315,7 +315,7 @@ impl BodyReached {
                 seconds(facts.time_s(facts.last_tick() - first)),
             ),
             tick,
-            format!("Open the hand and move it away from `{name}` sooner."),
+            format!("When is `{name}` set down, and what takes the arm away from it after that?"),
         ))
     }
 }

@@ -32,6 +32,14 @@ impl MotionTable for Table {
 #[derive(Debug)]
 pub(crate) struct FinishTime;
 
+/// The next step where a goal was never held, and so nothing after it can be judged.
+pub(super) fn first_hold(goal: usize) -> String {
+    let goal = goal + 1;
+    format!(
+        "First see why the TCP does not come to goal {goal} and stay: before that there is nothing to judge here."
+    )
+}
+
 impl RunMeasure for FinishTime {
     fn judge(&self, facts: &MotionFacts<'_>, band: Band) -> Finding {
         let missed = |dwell: &Dwell| facts.pose_band.score(dwell.settled_m) <= 0.0;
@@ -55,6 +63,7 @@ impl RunMeasure for FinishTime {
                 goal + 1
             );
             finding = finding.with(facts.evidence(message, "tcp".to_owned(), facts.last_tick()));
+            return finding.advise(first_hold(goal)).insisting();
         }
         finding.advise(band.advice(
             "Start the next move as soon as the dwell is over.",

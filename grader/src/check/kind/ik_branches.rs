@@ -121,7 +121,7 @@ fn of_worst_branch(facts: &CaseFacts<'_>, band: Band, turned: Option<Band>) -> O
     }
     Some(CaseScore::of(facts, worst_m, band, || {
         let name = facts.label();
-        if let Some(beyond) = any_beyond_limit(facts).filter(|_| complete) {
+        if let Some(beyond) = any_beyond_limit(facts).filter(|_| complete && !worst_m.is_finite()) {
             format!("{name}: {beyond}")
         } else if complete {
             let off = metres(worst_m);

@@ -4,6 +4,7 @@
 //! run that `pose-reached` judges \[rad\]; the score is the mean of these goals' scores. A goal that was never held, by the band of
 //! `pose-reached`, earns nothing.
 
+use super::finish_time::first_hold;
 use crate::check::prelude::*;
 use crate::task::model::GoalOrientation;
 
@@ -84,12 +85,18 @@ impl RunMeasure for OrientationReached {
         let mut lost: Vec<&Held> = held.iter().collect();
         lost.retain(|held| band.score(held.angle_rad()) < 1.0);
         lost.sort_by(|a, b| b.angle_rad().total_cmp(&a.angle_rad()));
+        let first_missed = match lost.iter().all(|held| held.worst.is_none()) {
+            true => lost.iter().map(|held| held.goal).min(),
+            false => None,
+        };
         let evidence = lost.into_iter().map(|held| evidence(facts, held, band));
         let quantity = "greatest angle from the orientation of a goal while it is held";
         let measure = measure(quantity, worst_rad, "rad", [band.full, band.zero]);
-        Finding::scored(score, measure)
-            .because(evidence.collect())
-            .advise("Which joint turns the hand without moving it? Compare its angle with what the goal asks for.")
+        let finding = Finding::scored(score, measure).because(evidence.collect());
+        if let Some(goal) = first_missed {
+            return finding.advise(first_hold(goal)).insisting();
+        }
+        finding.advise("Which joint turns the hand without moving it? Compare its angle with what the goal asks for.")
     }
 }
 

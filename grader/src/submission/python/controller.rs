@@ -354,7 +354,7 @@ impl PythonController {
             None if self.source.lines().any(inside) => format!(
                 "`def {name}` stands inside of another function or a class: write it at the beginning of a line, or give it a global name there"
             ),
-            Some(near) => format!("did you mean `{near}`? Write {head}"),
+            Some(near) => format!("rename `{near}`: {head}"),
             None => format!("write {head}"),
         };
         Stop::Missing {

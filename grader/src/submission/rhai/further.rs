@@ -136,7 +136,9 @@ impl Context<'_> {
                 || !next.message.starts_with("unexpected "),
                 |help| help != END_BEFORE,
             );
-            if at.line > place.line && !rest.is_changed(at.line) && says_more {
+            // the function around it has lost its head
+            let is_lost = next.message.starts_with("`this` ");
+            if at.line > place.line && !rest.is_changed(at.line) && says_more && !is_lost {
                 let help = next.help.clone().unwrap_or_else(|| next.message.clone());
                 found.push((at.line, help));
             }

@@ -30,6 +30,8 @@ pub(super) struct Names {
     pub(super) observation_parameters: BTreeSet<String>,
     /// Keys of `observation.target`, if it is a map.
     pub(super) target: BTreeSet<String>,
+    /// Keys of `observation.sensors`.
+    pub(super) sensors: BTreeSet<String>,
     /// Names of the parameters that hold the robot.
     pub(super) robot_parameters: BTreeSet<String>,
     /// Keys of the input of the lab's own function.
@@ -148,6 +150,8 @@ impl Names {
             &self.observation
         } else if owner == "target" && !self.target.is_empty() {
             &self.target
+        } else if owner == "sensors" && !self.sensors.is_empty() {
+            &self.sensors
         } else if self.given_parameters.contains(owner) {
             &self.given
         } else if owner == "robot" || self.robot_parameters.contains(owner) {
@@ -256,7 +260,7 @@ impl Names {
                 Some(owner) => format!("`{owner}` has no `{key}`"),
                 None => format!("the map has no `{key}`"),
             };
-            let both = both.chain(&self.target);
+            let both = both.chain(&self.target).chain(&self.sensors);
             return match nearest(key, both.map(String::as_str)) {
                 Some(near) => (format!("{message}: did you mean `{near}`?"), None),
                 None if self.target.is_empty() => (
@@ -272,6 +276,15 @@ impl Names {
         };
         let owner = owner.unwrap_or("it");
         let message = format!("`{owner}` has no `{key}`");
+        if keys.contains(key) {
+            // that of the lab has it, and this is that of a case
+            return (
+                format!("{message} in this case"),
+                Some(format!(
+                    "the robot of this case is another one: print({owner}) shows what it has"
+                )),
+            );
+        }
         let mut help = format!(
             "it has {}",
             keys.iter().cloned().collect::<Vec<_>>().join(", ")

@@ -195,7 +195,12 @@ fn square(meter: &Meter, name: &str, value: &Dynamic) -> Result<Matrix, Problem>
     if !matrix.is_square() {
         return Err(fault_with_help(
             format!("`{name}` takes a square matrix, got {}", describe(value)),
-            "least squares of m * x = v: solve(transpose(m) * m, transpose(m) * v)",
+            match matrix.rows() > matrix.columns() {
+                true => {
+                    "there are more equations than unknowns: leave out the rows that do not count, such as those of the turns; with a number in v for every row, solve(transpose(m) * m, transpose(m) * v) is the least-squares answer"
+                }
+                false => "least squares of m * x = v: solve(transpose(m) * m, transpose(m) * v)",
+            },
         ));
     }
     let n = matrix.rows();

@@ -120,6 +120,11 @@ impl ScriptController {
         let observation = convert::observation_template(opening);
         let robot = CachedRobot::new(&opening.robot);
         note_fields(&mut names, &observation, &opening.target, &robot);
+        names.sensors = opening
+            .sensors
+            .iter()
+            .map(|sensor| sensor.name.clone())
+            .collect();
 
         // a byte order mark, which editors do not show
         let source = source.trim_start_matches('\u{feff}');
