@@ -2,7 +2,10 @@
 
 use std::path::Path;
 
-use crate::testbed::{TestBed, root};
+use kinemark_grader::lab::load::lab_names;
+
+use crate::golden::is_current;
+use crate::testbed::{Folder, TestBed, root};
 
 /// Texts of all files with this ending below a folder.
 fn texts(folder: &Path, ending: &str, into: &mut Vec<String>) {
@@ -125,4 +128,76 @@ fn every_page_is_in_the_summary_of_the_book_under_its_title() {
         seen,
         "a page that is not there"
     );
+}
+
+/// A table that is made again: docs/labs.md from its first row to the end of the table.
+const FIRST_ROW: &str =
+    "| lab | task | check | least margin | greatest margin |\n|---|---|---|---:|---:|\n";
+
+/// What `kinemark lab check LAB --variants 200 --json` prints about every lab, in the folder that `.ci/full all-mutants` names.
+#[test]
+fn margins_of_the_reference_solutions_are_those_on_the_page() {
+    let page = std::fs::read_to_string(root().join("docs/labs.md")).expect("page");
+    let (before, rest) = page.split_once(FIRST_ROW).expect("the table");
+    let (table, after) = rest.split_at(rest.find("\n\n").map_or(rest.len(), |end| end + 1));
+    let labs = lab_names(&Folder(root().join("labs")));
+    let Some(checked) = std::env::var_os("KINEMARK_CHECKED") else {
+        for lab in &labs {
+            let rows = table
+                .lines()
+                .filter(|row| row.starts_with(&format!("| {lab} |")));
+            assert!(rows.count() > 1, "docs/labs.md has no margins of {lab}");
+        }
+        return;
+    };
+    let fresh: String = labs
+        .iter()
+        .map(|lab| margins(Path::new(&checked), lab))
+        .collect();
+    is_current("docs/labs.md", format!("{before}{FIRST_ROW}{fresh}{after}"));
+}
+
+/// The rows of one lab: least and greatest margin in the variants.
+fn margins(checked: &Path, lab: &str) -> String {
+    let audit = std::fs::read_to_string(checked.join(format!("{lab}.json"))).expect("an audit");
+    let audit: serde_json::Value = serde_json::from_str(&audit).expect("JSON");
+    let bands = audit["bands"].as_array().expect("bands").iter();
+    let row = |band: &serde_json::Value| {
+        let reached = band["reference"].as_array().expect("values").iter();
+        let in_variants = reached.filter(|reached| reached["of"] != "");
+        let margins = in_variants.map(|reached| reached["margin"].as_f64().expect("a margin"));
+        let [least, greatest] = margins
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], it| {
+                [low.min(it), high.max(it)]
+            });
+        let [task, check] = [&band["task"], &band["check"]].map(|it| it.as_str().expect("a name"));
+        let [least, greatest] = [least, greatest].map(|margin| 100.0 * margin);
+        format!("| {lab} | {task} | {check} | {least:.0} % | {greatest:.0} % |\n")
+    };
+    // what is right or wrong has no margin
+    let has_margin = |band: &&serde_json::Value| {
+        let mut reached = band["reference"].as_array().expect("values").iter();
+        reached.any(|reached| {
+            reached["margin"]
+                .as_f64()
+                .is_some_and(|margin| margin.abs() > 0.0)
+        })
+    };
+    bands.filter(has_margin).map(row).collect()
+}
+
+#[test]
+fn every_lab_has_its_pictures_in_the_gallery() {
+    let page = std::fs::read_to_string(root().join("docs/gallery/README.md")).expect("page");
+    for lab in lab_names(&Folder(root().join("labs"))) {
+        assert!(page.contains(&format!("\n## {lab}\n")), "no {lab}");
+        for shown in ["brief-1000", "report-1440", "report-390"] {
+            for look in ["light", "dark"] {
+                let picture = format!("{lab}-{shown}-{look}.webp");
+                assert!(page.contains(&picture), "{picture} is not shown");
+                let path = root().join("docs/gallery").join(&picture);
+                assert!(path.is_file(), "there is no {picture}");
+            }
+        }
+    }
 }
