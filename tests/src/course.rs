@@ -373,6 +373,27 @@ fn points_by_hand_that_cannot_be_meant_are_refused() {
 }
 
 #[test]
+fn an_extension_that_ends_before_the_lab_is_due_is_noticed() {
+    let bed = class();
+    let name = format!("name = \"{LAB}\"\n");
+    let due = format!("{name}due = 2026-11-27T23:59:00Z\n");
+    bed.edit("course.toml", &name, &due);
+    for (year, code) in [(2025, 1), (2026, 0)] {
+        bed.write(
+            "fixes.toml",
+            format!(
+                "format = 1\n[[extensions]]\nstudent = \"s100\"\nlab = \"{LAB}\"\n\
+                 due = {year}-12-04T23:59:00Z\nwhy = \"ill\"\nby = \"b\"\n"
+            ),
+        );
+        let ran = bed.run(&["course", "check"]);
+        assert_eq!(ran.code, Some(code), "{year}: {ran:?}");
+        let is_noticed = ran.stdout.contains("before the lab is due for everybody");
+        assert_eq!(is_noticed, code == 1, "{year}: {ran:?}");
+    }
+}
+
+#[test]
 fn in_the_folder_of_a_course_its_salt_draws_the_variants() {
     let bed = class();
     let ran = bed.run(&["lab", "variant", LAB, "--student", "s100"]);

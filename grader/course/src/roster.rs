@@ -222,6 +222,9 @@ fn plain_name(name: &str) -> String {
     folded(name).replace(['-', '_', ' ', '.'], "")
 }
 
+/// Names of columns for people that are no slips of one of [`COLUMNS`].
+const OTHER_WORDS: [&str; 6] = ["surname", "session", "station", "fname", "lname", "emails"];
+
 /// A column that is nearly one with a meaning, which no other column is; with that one.
 fn misspelt<'h>(
     header: &'h csv::StringRecord,
@@ -229,7 +232,14 @@ fn misspelt<'h>(
 ) -> Option<(&'h str, &'static str)> {
     let free = || COLUMNS.into_iter().filter(|known| !at.contains_key(known));
     let names = header.iter().enumerate();
-    let mut others = names.filter(|(i, _)| !at.values().any(|known| known == i));
+    let mut others = names.filter(|(i, name)| {
+        let is_read = at.values().any(|known| known == i);
+        // the same column under its name and another writing of it
+        let is_known = COLUMNS
+            .iter()
+            .any(|known| plain_name(known) == plain_name(name));
+        !is_read && !is_known && !OTHER_WORDS.contains(&plain_name(name).as_str())
+    });
     others.find_map(|(_, name)| {
         // an `id` is near to too much
         let known = free().filter(|known| known.len() > 2);
@@ -242,9 +252,7 @@ fn columns(header: &csv::StringRecord) -> Result<BTreeMap<&'static str, usize>, 
     let mut at = BTreeMap::new();
     for (i, name) in header.iter().enumerate() {
         // any other is a column for people
-        let known = COLUMNS
-            .iter()
-            .find(|known| plain_name(name) == plain_name(known));
+        let known = COLUMNS.iter().find(|known| folded(name) == **known);
         if let Some(known) = known
             && at.insert(*known, i).is_some()
         {
@@ -252,6 +260,13 @@ fn columns(header: &csv::StringRecord) -> Result<BTreeMap<&'static str, usize>, 
                 format!("the column `{known}` is there twice"),
                 "keep one of the two".to_owned(),
             ));
+        }
+    }
+    // as people write them: `E-Mail`, `LMS ID`
+    for (i, name) in header.iter().enumerate() {
+        let mut known = COLUMNS.iter();
+        if let Some(known) = known.find(|known| plain_name(name) == plain_name(known)) {
+            at.entry(*known).or_insert(i);
         }
     }
     if at.contains_key("id") {
@@ -298,6 +313,21 @@ mod tests {
             ("B", "")
         );
         assert_eq!(roster.get(&StudentId::new("s2").unwrap()), Some(&people[1]));
+    }
+
+    #[test]
+    fn columns_for_people_are_theirs() {
+        for header in [
+            "id,name,surname",
+            "id,name,session",
+            "id,fname,lname",
+            "id,email,e-mail",
+            "id,group,grade,note",
+        ] {
+            let fields = header.replace("id", "s1");
+            let roster = Roster::parse("roster.csv", format!("{header}\n{fields}\n").as_bytes());
+            assert!(roster.is_ok(), "{header}: {roster:?}");
+        }
     }
 
     #[test]
