@@ -378,6 +378,49 @@ fn every_fault_is_found_with_its_place_and_numbers() {
         ),
         (
             "hidden.toml",
+            "[[draws]]\ntask = \"fk\"\nclass = \"other angles\"\ncount = 5\nq_rad = [[-3.0, 3.0], [-3.0, 3.0]]\n",
+            "",
+            "hidden",
+            "fk: it has no hidden cases",
+        ),
+        (
+            "hidden.toml",
+            "[[runs]]\ntask = \"touch\"\nclass = \"another place\"\ncount = 1\nparameters = { out = [1.05, 1.25] }\n",
+            "",
+            "hidden",
+            "touch: it has no hidden runs",
+        ),
+        (
+            "lab.toml",
+            "fk-error = { full_m = 1e-4, zero_m = 5e-3 }\n",
+            "fk-error = { full_m = 1e-4, zero_m = 5e-3 }\n\n[[tasks.checks]]\nname = \"again\"\ntitle = \"Again\"\n\
+             points = 1.0\nfk-error = { full_m = 1e-4, zero_m = 5e-3 }\n",
+            "cases",
+            "fk/again: it measures what check `position` does",
+        ),
+        (
+            "lab.toml",
+            "title = \"Gently\"",
+            "title = \"TODO: gently\"",
+            "names",
+            "push/peak: it still says TODO",
+        ),
+        (
+            "lab.toml",
+            "title = \"One branch reaches\"",
+            "title = \"One branch reaches\"\nhints = [\"Which of `robot.lengths` do you use?\"]",
+            "names",
+            "ik/reach: it mentions `robot.lengths`, which there is not",
+        ),
+        (
+            "lab.toml",
+            "title = \"Gently\"",
+            "title = \"Gently\"\nhints = [\"How far is `target.effort` from what you command?\"]",
+            "names",
+            "push/peak: it mentions `target.effort`, which there is not",
+        ),
+        (
+            "hidden.toml",
             "q_rad = [[-3.0, 3.0], [-3.0, 3.0]]",
             "q_rad = [[-180.0, 180.0], [-180.0, 180.0]]",
             "reach",
@@ -509,7 +552,10 @@ fn words_of_the_brief_are_held_to_what_is_graded() {
             Some("out: the brief says 1.25, which differs from student to student, without a mark"),
         ),
         ("The other place is at 1.25<!-- = out --> m.", None),
-        ("The other place is at 1<!-- out --> m.", Some("line ")),
+        (
+            "The other place is at 1<!-- out --> m.",
+            Some("line 2: `<!-- out -->` stands behind a number in the brief, and is no mark"),
+        ),
     ] {
         let own = own_lab().with(
             "lab.toml",

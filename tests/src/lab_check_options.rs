@@ -63,6 +63,33 @@ fn the_folder_of_a_lab_gets_the_name_and_the_option_to_type() {
     }
 }
 
+/// A brief that shows what is not there, and a starter with the solution in it.
+#[test]
+fn pictures_that_are_missing_and_solutions_in_starters_are_found() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let lab = "01-kinematics";
+    bed.edit(&format!("labs/{lab}/brief.md"), ".svg)", "-.svg)");
+    let solution = std::fs::read_to_string(bed.path("reference/01-kinematics/solution.py"));
+    bed.write(
+        "labs/01-kinematics/starter.py",
+        solution.expect("a solution"),
+    );
+    let (ran, _) = check(&bed, lab, &["--quick"]);
+    assert_eq!(ran.code, Some(1), "{ran:?}");
+    for words in [
+        "brief.md shows the picture `",
+        "starter.py has ",
+        "and there is no such file",
+    ] {
+        assert!(ran.stdout.contains(words), "{words}: {}", ran.stdout);
+    }
+    // options of changes alone are not dropped in silence
+    let ran = bed.run(&["lab", "check", lab, "--quick", "--draw", "3"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("--mutate"), "{ran:?}");
+}
+
 /// A servo that is too stiff for a physics step of 1 ms, and a band that is thinner than what this makes of the value.
 const LAB: &str = r#"
 format = 1

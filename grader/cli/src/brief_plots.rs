@@ -1,6 +1,7 @@
 //! The plots that a brief shows, drawn from runs of the reference solution and of mutants: `plot-PLOT.svg`, `plot-PLOT-by-MUTANT.svg`.
 
 use kinemark_grader::judge::grade;
+use kinemark_grader::lab::brief::pictures;
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::graded::GradedRun;
 use kinemark_grader::submission::host::InProcess;
@@ -56,14 +57,6 @@ pub(crate) fn brief_plots(
         drawn.push((picture.to_owned(), svg));
     }
     Ok(drawn)
-}
-
-/// The pictures that a brief links to, by their paths.
-fn pictures(brief: &str) -> impl Iterator<Item = &str> {
-    brief.split("](").skip(1).filter_map(|rest| {
-        let (target, _) = rest.split_once(')')?;
-        target.ends_with(".svg").then_some(target)
-    })
 }
 
 /// All plots of a submission of the course staff.

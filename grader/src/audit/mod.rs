@@ -101,6 +101,7 @@ impl Audit {
         formula: Option<&str>,
         files: &[String],
     ) {
+        let no_svg = |brief| pictures(brief).find(|picture| !picture.ends_with(".svg"));
         let missing =
             |brief| pictures(brief).find(|picture| !files.iter().any(|file| file == picture));
         let problem = match brief.map(|brief| (brief, with_numbers(brief, lab))) {
@@ -115,6 +116,12 @@ impl Audit {
             Some((_, Ok(_))) if let Some(why) = formula => Some((
                 format!("brief.md: {why}"),
                 "a formula is LaTeX between `$` and `$`, or `$$` and `$$`; a dollar sign is `\\$`",
+            )),
+            Some((brief, Ok(_))) if let Some(picture) = no_svg(brief) => Some((
+                format!(
+                    "brief.md shows the picture `{picture}`, and students get pictures in SVG alone"
+                ),
+                "save it as SVG beside brief.md",
             )),
             Some((brief, Ok(_))) if let Some(picture) = missing(brief) => Some((
                 format!("brief.md shows the picture `{picture}`, and there is no such file"),
@@ -159,16 +166,25 @@ impl Audit {
     pub fn starter_beside_solution(&mut self, file: &str, starter: &str, solution: &str) {
         /// A shorter line is in every program.
         const TELLING: usize = 16;
+        /// How lines begin that a starter has, too.
+        const FRAME: [&str; 10] = [
+            "#", "//", "/*", "*", "\"\"\"", "import ", "from ", "use ", "def ", "fn ",
+        ];
         let lines = |text: &'_ str| -> Vec<String> {
-            let lines = text.lines().map(|line| line.trim().to_owned());
-            lines.filter(|line| line.len() >= TELLING).collect()
+            let lines = text
+                .lines()
+                .map(|line| line.trim().trim_start_matches("pub "));
+            let is_own = |line: &&str| {
+                line.len() >= TELLING && !FRAME.iter().any(|frame| line.starts_with(frame))
+            };
+            lines.filter(is_own).map(str::to_owned).collect()
         };
         let (starter, solution) = (lines(starter), lines(solution));
         let given = solution
             .iter()
             .filter(|line| starter.contains(line))
             .count();
-        if 2 * given > solution.len() {
+        if given > 0 && 2 * given >= solution.len() {
             let what = format!(
                 "{file} has {given} of {} lines of the reference solution",
                 solution.len()

@@ -34,10 +34,15 @@ pub fn has_place_for_grading(brief: &str) -> bool {
 /// The files of the pictures in a brief, `![...](frame.svg)`, in their order.
 pub fn pictures(brief: &str) -> impl Iterator<Item = &str> {
     let begun = brief.split("![").skip(1);
-    let paths = begun.filter_map(|rest| Some(rest.split_once("](")?.1.split_once(')')?.0));
+    let paths = begun.filter_map(|rest| {
+        let (alternative, rest) = rest.split_once("](")?;
+        // of a macro or a picture elsewhere, with a link somewhere behind it
+        (!alternative.contains(']')).then_some(rest.split_once(')')?.0)
+    });
     // a title may stand behind the path
     let paths = paths.filter_map(|path| path.split_whitespace().next());
-    paths.filter(|path| !path.contains("://"))
+    let paths = paths.map(|path| path.trim_start_matches("./"));
+    paths.filter(|path| !path.contains("://") && !path.starts_with("data:"))
 }
 
 /// How a mark begins that stands behind a number, invisible where the brief is shown: `3.0<!-- = line_x -->`.
@@ -206,7 +211,7 @@ mod tests {
 
     #[test]
     fn pictures_are_found_with_and_without_a_title() {
-        let brief = "![an arm](arm.svg) and [a page](page.md), ![a plot](p.svg \"a plot\"), ![](https://a.b/c.svg)";
+        let brief = "![an arm](arm.svg) and [a page](page.md), ![a plot](p.svg \"a plot\"), ![](https://a.b/c.svg), `vec![0.0; 2]` and [more](#more)";
         assert_eq!(pictures(brief).collect::<Vec<_>>(), ["arm.svg", "p.svg"]);
     }
     use crate::lab::copies::Copies;

@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::OnceLock;
 
 use kinemark_grader::audit::Audit;
+use kinemark_grader::lab::brief::pictures;
 use kinemark_grader::lab::copies::Copies;
 use kinemark_grader::lab::{Lab, Staff, Variant};
 use kinemark_grader::task::files::Files;
@@ -57,7 +58,8 @@ pub fn study(lab: &Lab, files: &dyn Files) {
     let formulas = formula_problems(&brief);
     let formula = formulas.first().map(ToString::to_string);
     let mut audit = Audit::new(lab);
-    audit.brief(lab, Some(&brief), formula.as_deref(), &[]);
+    let shown: Vec<String> = pictures(&brief).map(str::to_owned).collect();
+    audit.brief(lab, Some(&brief), formula.as_deref(), &shown);
     for task in &lab.tasks {
         assert!(task.max_points() > 0.0);
         task.needs_reference();

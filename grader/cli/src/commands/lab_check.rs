@@ -205,7 +205,10 @@ fn audit_other_starters(
         if let Some(text) = text {
             let defines = |name: &str| language.defines(&text, name);
             audit.compiled_starter(lab, language.starter(), &defines);
-            let solution = language.starter().replace("starter", "solution");
+            let solution = match language {
+                Language::Rust => "rust/src/lib.rs".to_owned(),
+                other => other.starter().replace("starter", "solution"),
+            };
             let solution = reference.read(&format!("{}/{solution}", lab.name));
             if let Ok(Some(solution)) = solution {
                 audit.starter_beside_solution(language.starter(), &text, &solution);

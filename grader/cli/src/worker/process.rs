@@ -295,7 +295,7 @@ fn ended_soon(child: &mut Child) -> Option<ExitStatus> {
     None
 }
 
-/// Whether a process that was not waited for has used the CPU time that it may have, as the system says: at least half of it. The limit
+/// Whether a process that was not waited for has used the CPU time that it may have, as the system says: at least three quarters of it. The limit
 /// counts the ticks of the clock that find the process running, and the system says how long it ran: beside others on a busy machine, that
 /// was 10 % less and more.
 #[cfg(target_os = "linux")]
@@ -320,7 +320,7 @@ fn is_out_of_cpu_time(id: u32) -> bool {
         return false;
     };
     let most = most.saturating_mul(rustix::param::clock_ticks_per_second());
-    used >= most / 2
+    used >= most - most / 4
 }
 
 /// Nobody knows on this system.

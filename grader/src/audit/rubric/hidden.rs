@@ -6,6 +6,7 @@ use super::unused::uses_parameters;
 use super::{Doubt, Rubric};
 use crate::lab::staff::HiddenCases;
 use crate::lab::{Lab, Staff, Task, TaskWork};
+use crate::task::entry::Entry;
 use crate::task::model::{Case, Given};
 
 /// A salt of fewer characters can be tried out.
@@ -31,7 +32,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             TaskWork::Function(function, _) => {
                 let hidden = staff.draws.iter().filter(|draw| draw.task == task.name);
                 let hidden: Vec<&HiddenCases> = hidden.collect();
-                if hidden.is_empty() {
+                if hidden.is_empty() && function.cases.iter().all(can_be_drawn) {
                     doubts.push(nothing_hidden(task, "cases"));
                 }
                 doubts.extend(drawn_twice(task, &hidden));
@@ -109,6 +110,17 @@ fn of_runs(lab: &Lab, staff: &Staff, task: &Task, doubts: &mut Vec<Doubt>) {
                     .to_owned(),
             });
         }
+    }
+}
+
+/// Whether cases such as this one can be drawn: there are ranges of numbers and lists.
+fn can_be_drawn(case: &Case) -> bool {
+    match &case.given {
+        Given::Values { given, .. } => {
+            let is_matrix = |entry: &Entry| matches!(entry, Entry::Matrix(_));
+            !given.is_empty() && !given.iter().any(|(_, entry)| is_matrix(entry))
+        }
+        _ => true,
     }
 }
 

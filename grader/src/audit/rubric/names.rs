@@ -17,8 +17,10 @@ const OF_EVERY_ROBOT: [&str; 6] = ["name", "joints", "joint_names", "lower", "up
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     let known = Known::of(rubric);
     for (place, text) in texts(rubric) {
-        if text.contains(TODO) {
-            let times = text.matches(TODO).count();
+        // code may show the marks of a starter
+        let times = outside_of_code(text).map(|part| part.matches(TODO).count());
+        let times: usize = times.sum();
+        if times > 0 {
             doubts.push(Doubt {
                 rule: "names",
                 of: place.clone(),
@@ -37,10 +39,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                     rule: "names",
                     of: place.clone(),
                     what: format!("it mentions `{owner}.{name}`, which there is not"),
-                    help: match names.is_empty() {
-                        true => format!("no task has such a `{owner}`"),
-                        false => format!("`{owner}` has {}", names.join(", ")),
-                    },
+                    help: format!("`{owner}` has {}", names.join(", ")),
                 });
             }
         }
@@ -52,10 +51,15 @@ fn texts<'a>(rubric: &'a Rubric<'_>) -> impl Iterator<Item = (String, &'a str)> 
     let brief = rubric.brief.map(|brief| ("brief".to_owned(), brief));
     let of_tasks = rubric.lab.tasks.iter().flat_map(of_task);
     let says = rubric.staff.mutants.iter().flat_map(|mutant| {
-        let words = std::iter::once(&mutant.says).chain(mutant.says_in.values());
+        // where there are words for each task, they begin with those for the first
+        let for_all = mutant.says_in.is_empty().then_some(&mutant.says);
+        let words = for_all.into_iter().chain(mutant.says_in.values());
         words.map(move |words| (format!("mutant {}", mutant.name), words.as_str()))
     });
-    brief.into_iter().chain(of_tasks).chain(says)
+    let of_lab = [&rubric.lab.title, &rubric.lab.summary];
+    let of_lab = of_lab.map(|text| ("lab".to_owned(), text.as_str()));
+    let texts = brief.into_iter().chain(of_lab);
+    texts.chain(of_tasks).chain(says)
 }
 
 fn of_task(task: &Task) -> impl Iterator<Item = (String, &str)> {
@@ -91,10 +95,9 @@ impl Known {
             known.robot.extend(dimensions.map(str::to_owned));
             match &task.work {
                 TaskWork::Function(function, _) => {
-                    let robots = function
-                        .cases
-                        .iter()
-                        .filter_map(|case| case.robot.as_deref());
+                    let hidden = rubric.staff.draws.iter().flat_map(|draw| &draw.cases);
+                    let cases = function.cases.iter().chain(hidden);
+                    let robots = cases.filter_map(|case| case.robot.as_deref());
                     let own = robots.flat_map(|robot| robot.dimensions().names());
                     known.robot.extend(own.map(str::to_owned));
                 }
@@ -114,41 +117,87 @@ impl Known {
         known
     }
 
-    fn by_owner(&self) -> [(&'static str, &BTreeSet<String>); 3] {
-        [
+    /// Those that have names: a list, or what no task has, has none.
+    fn by_owner(&self) -> impl Iterator<Item = (&'static str, &BTreeSet<String>)> {
+        let all = [
             ("robot", &self.robot),
             ("target", &self.target),
             ("sensors", &self.sensors),
-        ]
+        ];
+        all.into_iter().filter(|(_, names)| !names.is_empty())
     }
 }
 
-/// The names after `owner.` in the code of a text, `` `robot.lengths[0]` ``.
+/// The code of a text: blocks between fences, and what stands between backticks in a line; with what is no code.
+fn parts(text: &str) -> (Vec<&str>, Vec<&str>) {
+    let (mut code, mut words) = (Vec::new(), Vec::new());
+    let mut is_fenced = false;
+    for line in text.lines() {
+        let start = line.trim_start();
+        if start.starts_with("```") || start.starts_with("~~~") {
+            is_fenced = !is_fenced;
+        } else if is_fenced {
+            code.push(line);
+        } else {
+            code.extend(line.split('`').skip(1).step_by(2));
+            words.extend(line.split('`').step_by(2));
+        }
+    }
+    (code, words)
+}
+
+fn outside_of_code(text: &str) -> impl Iterator<Item = &str> {
+    parts(text).1.into_iter()
+}
+
+/// The names after `owner.` in the code of a text, `` `robot.lengths[0]` ``; what is called is a method, and what ends like a file is one.
 fn members<'t>(text: &'t str, owner: &'static str) -> impl Iterator<Item = &'t str> {
+    const ENDINGS: [&str; 6] = ["toml", "urdf", "rhai", "py", "rs", "csv"];
     let is_of_name = |c: char| c.is_alphanumeric() || c == '_';
-    let code = text.split('`').skip(1).step_by(2);
+    let code = parts(text).0.into_iter();
     code.flat_map(move |code| {
         code.match_indices(owner).filter_map(move |(at, _)| {
-            if code[..at].ends_with(is_of_name) {
+            if code[..at].ends_with(|c| is_of_name(c) || c == '-' || c == '/') {
                 return None;
             }
             let rest = code[at + owner.len()..].strip_prefix('.')?;
             let end = rest.find(|c| !is_of_name(c)).unwrap_or(rest.len());
-            let is_name = rest.starts_with(|c: char| c.is_ascii_lowercase());
-            is_name.then_some(&rest[..end])
+            let (name, behind) = rest.split_at(end);
+            let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())
+                && !behind.starts_with('(')
+                && !ENDINGS.contains(&name);
+            is_name.then_some(name)
         })
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::members;
+    use super::{TODO, members, outside_of_code};
 
     #[test]
     fn names_are_those_of_the_owner_and_in_code_alone() {
         let text = "A robot.arm, `robot.link[0] + my_robot.x`, `observation.target.to`.";
         assert_eq!(members(text, "robot").collect::<Vec<_>>(), ["link"]);
         assert_eq!(members(text, "target").collect::<Vec<_>>(), ["to"]);
-        assert_eq!(members("`robot.KEY`", "robot").count(), 0);
+        for text in [
+            "`robot.KEY`",
+            "`robot.dimensions()`",
+            "`labs/robots/robot.urdf`",
+            "```\nan odd ` here\n```\nrobot.arm",
+        ] {
+            assert_eq!(members(text, "robot").count(), 0, "{text}");
+        }
+        let fenced = "```rhai\nlet a = robot.arm;\n```";
+        assert_eq!(members(fenced, "robot").collect::<Vec<_>>(), ["arm"]);
+    }
+
+    #[test]
+    fn what_code_says_is_no_todo_of_the_text() {
+        let text = "Replace `# TODO` there.\n```\n// TODO: write\n```\nTODO: the theory";
+        let found: Vec<&str> = outside_of_code(text)
+            .filter(|part| part.contains(TODO))
+            .collect();
+        assert_eq!(found, ["TODO: the theory"]);
     }
 }

@@ -60,7 +60,9 @@ fn mutants(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     for (i, mutant) in all.iter().enumerate() {
         let mut before = all[..i].iter();
         let text = mutant.source.text().trim();
-        if let Some(first) = before.find(|first| first.source.text().trim() == text) {
+        if let Some(first) = before
+            .find(|first| first.is_named == mutant.is_named && first.source.text().trim() == text)
+        {
             doubts.push(doubt(
                 format!("mutant {}", mutant.name),
                 format!("its file is that of mutant `{}`", first.name),
@@ -109,7 +111,12 @@ fn functions(tasks: &[&Table], doubts: &mut Vec<Doubt>) {
             continue;
         };
         let mut before = tasks[..i].iter();
-        if let Some(first) = before.find(|first| first.get("function") == Some(function)) {
+        let is_same = |first: &&&Table| {
+            let mut keys = ["robot", "dimensions"].into_iter();
+            first.get("function") == Some(function)
+                && keys.all(|key| first.get(key) == task.get(key))
+        };
+        if let Some(first) = before.find(is_same) {
             doubts.push(doubt(
                 name(task).to_owned(),
                 format!(

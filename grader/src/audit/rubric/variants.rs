@@ -14,10 +14,12 @@ fn of_nothing(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         let choices = rule.get("choices").and_then(Toml::as_array);
         let choices = choices.map_or(&[][..], Vec::as_slice);
         let again = (1..choices.len()).find(|i| choices[..*i].contains(&choices[*i]));
-        let what = if rule.get("from").is_some() && rule.get("from") == rule.get("to") {
-            "its range has no width: everybody gets the same number".to_owned()
+        let (what, help) = if rule.get("from").is_some() && rule.get("from") == rule.get("to") {
+            let what = "its range has no width: everybody gets the same number".to_owned();
+            (what, "widen it, or leave it out")
         } else if let Some(again) = again {
-            format!("the choice {} is there twice", choices[again])
+            let what = format!("the choice {} is there twice", choices[again]);
+            (what, "take one of the two out")
         } else {
             continue;
         };
@@ -25,7 +27,7 @@ fn of_nothing(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             rule: "variants",
             of: name.clone(),
             what,
-            help: "widen it, or leave it out".to_owned(),
+            help: help.to_owned(),
         });
     }
 }

@@ -15,7 +15,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         of_targets(rubric.lab, brief, doubts);
         of_budgets(rubric.lab, brief, doubts);
         of_variants(rubric.lab, brief, doubts);
-        of_comments(brief, doubts);
+        of_comments(rubric.lab, brief, doubts);
     }
     let Ok(table) = rubric.lab.source.text().parse::<Table>() else {
         return;
@@ -171,7 +171,7 @@ fn of_variants(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
 }
 
 /// Comments right behind a number that are nearly marks, and change nothing.
-fn of_comments(brief: &str, doubts: &mut Vec<Doubt>) {
+fn of_comments(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
     for (at, _) in brief.match_indices("<!--") {
         let (before, comment) = brief.split_at(at);
         let is_behind_a_number = before.ends_with(|c: char| c.is_ascii_digit());
@@ -182,6 +182,11 @@ fn of_comments(brief: &str, doubts: &mut Vec<Doubt>) {
         let comment = comment[..end].lines().next().unwrap_or_default();
         let inside = comment.trim_start_matches(['<', '!', '-', '=', ' ']);
         let inside = inside.trim_end_matches(['>', '-', ' ']);
+        let mut words = inside.split(|c: char| !(c.is_alphanumeric() || c == '_'));
+        // other comments are nobody's marks
+        if !words.any(|word| lab.parameters.get(word).is_some()) {
+            continue;
+        }
         doubts.push(doubt(
             format!("line {}", before.matches('\n').count() + 1),
             format!("`{comment}` stands behind a number in the brief, and is no mark: everybody reads the same number"),
