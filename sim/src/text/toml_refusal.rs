@@ -42,7 +42,7 @@ impl TomlRefusal {
         } else {
             unknown(message, given, text, &at)
                 .or_else(|| key(message, given, text, at.start))
-                .or_else(|| not_quoted(message, given, expressions))
+                .or_else(|| not_quoted(message, given, (expressions, is_in_list(text, at.start))))
                 .or_else(|| value(message, given, expressions))
                 .or_else(|| brackets(message, text, at.start))
                 .unwrap_or_else(|| syntax(message, text, at.start))
@@ -142,7 +142,7 @@ fn nearly_the_same_list(text: &str, at: usize) -> Option<(usize, &str)> {
 }
 
 /// Something that stands where a value does, and not in quotes: a text, or a number with more beside it.
-fn not_quoted(message: &str, given: &str, expressions: bool) -> Option<Words> {
+fn not_quoted(message: &str, given: &str, (expressions, in_list): (bool, bool)) -> Option<Words> {
     let is_date = message.starts_with("invalid date");
     if !is_date && !message.starts_with("string values must be quoted") {
         return None;
@@ -159,16 +159,22 @@ fn not_quoted(message: &str, given: &str, expressions: bool) -> Option<Words> {
             "write an ordinary space in its place".to_owned(),
         ));
     }
-    if given.len() > 60
-        || is_date
-            && given
-                .chars()
-                .all(|c| !c.is_alphabetic() || "TZtz".contains(c))
-    {
+    // a date that is nearly one
+    let has_year = given.len() > 5
+        && given.bytes().take(4).all(|byte| byte.is_ascii_digit())
+        && given.as_bytes().get(4) == Some(&b'-');
+    if is_date && has_year {
         return None;
     }
     if let Some(words) = typeset(given, first, rest) {
         return Some(words);
+    }
+    let statement = given.strip_suffix(';');
+    if let Some(number) = statement.filter(|number| number.parse::<f64>().is_ok()) {
+        return Some((
+            format!("`{given}` ends with `;`"),
+            format!("write {number}"),
+        ));
     }
     let mut parts = given
         .split([' ', '\t', ';'])
@@ -177,42 +183,51 @@ fn not_quoted(message: &str, given: &str, expressions: bool) -> Option<Words> {
         .by_ref()
         .map(|part| part.parse::<f64>().is_ok().then_some(part))
         .collect();
-    if let Some(numbers) = numbers.filter(|numbers| numbers.len() > 1) {
+    if let Some(numbers) = numbers.filter(|numbers| numbers.len() > 1 && in_list) {
         return Some((
             format!("no `,` stands between the elements `{given}`"),
             format!("write {}", numbers.join(", ")),
         ));
     }
     let calculates = given.contains(['*', '/', '(']) && !given.contains('\\');
+    let given = &shortened(given)[..];
     if expressions && calculates {
         return Some((
             format!("`{given}` is not in quotes"),
             format!("an expression stands in quotes and begins with =: \"= {given}\""),
         ));
     }
-    let is_of_number = |c: char| c.is_ascii_digit() || c == '.';
-    let number = given.trim_start_matches(|c: char| !is_of_number(c) && c != '-');
-    let end = number[usize::from(number.starts_with('-'))..].find(|c| !is_of_number(c));
-    let end = end.map_or(number.len(), |end| {
-        end + usize::from(number.starts_with('-'))
+    let number = given.trim_start_matches(['~', '±', '+', '≈']);
+    let end = number.find([' ', '\t', '%', '°']).unwrap_or_else(|| {
+        let is_of_number = |c: char| c.is_ascii_digit() || ".-+".contains(c);
+        number.find(|c| !is_of_number(c)).unwrap_or(number.len())
     });
-    let behind = number[end..].trim_start();
-    let has_unit =
-        behind.is_empty() || behind.starts_with(|c: char| c.is_alphabetic() || "%°".contains(c));
-    if !is_date
-        && number.len() + 1 >= given.len()
-        && has_unit
-        && number[..end].parse::<f64>().is_ok()
-    {
+    if !is_date && number[..end].parse::<f64>().is_ok() && end > 0 {
         return Some((
             format!("`{given}` is more than a number"),
-            format!("write {} alone: the unit is in the key", &number[..end]),
+            "write the number alone, in the unit that its key ends with".to_owned(),
         ));
     }
     Some((
         format!("`{given}` is not in quotes"),
         format!("text stands in quotes: \"{given}\""),
     ))
+}
+
+/// Whether a list is open before byte `at`, since the key of its line.
+fn is_in_list(text: &str, at: usize) -> bool {
+    let before = text.get(..at).unwrap_or_default();
+    let value = before.rsplit('=').next().unwrap_or_default();
+    value.matches('[').count() > value.matches(']').count()
+}
+
+/// The beginning of what is too long for a message.
+fn shortened(text: &str) -> String {
+    const MOST: usize = 40;
+    match text.char_indices().nth(MOST) {
+        Some((end, _)) => format!("{}…", &text[..end]),
+        None => text.to_owned(),
+    }
 }
 
 /// Signs that a word processor writes in place of those of the keyboard.
@@ -287,6 +302,13 @@ fn brackets(message: &str, text: &str, at: usize) -> Option<Words> {
         Some(bracket @ ('}' | ']')) => words(
             format!("a `{bracket}` that closes nothing"),
             "take it out, or open it before",
+        ),
+        Some(sign @ (',' | ';')) => {
+            words(format!("a line ends without `{sign}`"), "take the sign out")
+        }
+        Some('/') if behind.starts_with("//") => words(
+            "`//` begins no comment".to_owned(),
+            "a comment begins with #",
         ),
         Some(_) if text[..at].trim_end().ends_with('"') => words(
             "the string ends before this".to_owned(),
@@ -468,7 +490,9 @@ fn day_month_year(word: &str) -> Option<String> {
     let [day, month] = [day, month].map(|part| part.parse::<u8>().ok());
     let is_year = year.len() == 4 && year.parse::<u16>().is_ok();
     (is_year && parts.next().is_none()).then_some(())?;
-    Some(format!("{year}-{:02}-{:02}", month?, day?))
+    let (day, month) = (day?, month?);
+    let is_date = (1..=31).contains(&day) && (1..=12).contains(&month);
+    is_date.then(|| format!("{year}-{month:02}-{day:02}"))
 }
 
 /// What to write for a number such as `0,5` that is the value at which the reader stopped.
@@ -688,17 +712,17 @@ mod tests {
             (
                 "a = 6 points",
                 "`6 points` is more than a number",
-                "write 6 alone: the unit is in the key",
+                "write the number alone, in the unit that its key ends with",
             ),
             (
                 "a = 250%",
                 "`250%` is more than a number",
-                "write 250 alone: the unit is in the key",
+                "write the number alone, in the unit that its key ends with",
             ),
             (
                 "a = ~6",
                 "`~6` is more than a number",
-                "write 6 alone: the unit is in the key",
+                "write the number alone, in the unit that its key ends with",
             ),
             (
                 "a = [pi/2, -1.1]",
@@ -739,6 +763,32 @@ mod tests {
                 "x = 1\na = \"\"\"abc\nb = 1\n",
                 "the string that begins with `\"\"\"` in line 2 is not closed",
                 "end it with `\"\"\"`",
+            ),
+            ("a = 6;", "`6;` ends with `;`", "write 6"),
+            (
+                "a = 1e-3 m",
+                "`1e-3 m` is more than a number",
+                "write the number alone, in the unit that its key ends with",
+            ),
+            (
+                "a = 1 000",
+                "`1 000` is more than a number",
+                "write the number alone, in the unit that its key ends with",
+            ),
+            (
+                "a = 2 * pi",
+                "`2 * pi` is not in quotes",
+                "an expression stands in quotes and begins with =: \"= 2 * pi\"",
+            ),
+            (
+                "a = \"rrbot\",\n",
+                "a line ends without `,`",
+                "take the sign out",
+            ),
+            (
+                "a = \"rrbot\" // the arm\n",
+                "`//` begins no comment",
+                "a comment begins with #",
             ),
             (
                 "a = 27.11.2026",
