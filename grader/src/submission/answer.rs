@@ -271,6 +271,7 @@ pub fn describe(value: &Value) -> String {
             "nothing (does the function end without `return`, or in Rhai with `;`?)".to_owned()
         }
         Value::Text(text) => format!("the string {text:?}"),
+        Value::Map(entries) if entries.is_empty() => "no entries".to_owned(),
         Value::Map(entries) => {
             let names: Vec<&str> = entries.iter().map(|(name, _)| name.as_str()).collect();
             format!("entries named {}", names.join(", "))

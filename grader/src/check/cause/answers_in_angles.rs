@@ -78,6 +78,14 @@ fn of_forward(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
     // a slip is of joints that the robot of every case has
     let robots = wrong.iter().map(|(facts, ..)| facts.robot);
     let robot = robots.min_by_key(|robot| robot.n())?;
+    // of a pose the orientation alone may be wrong
+    let is_right = |(facts, q, answered): &(&CaseFacts<'_>, &Vec<f64>, Vector3<f64>)| {
+        let p = tcp_in(facts.robot, answers.frame, q);
+        p.is_some_and(|p| (p - answered).norm() <= SAME_M)
+    };
+    if wrong.iter().any(is_right) {
+        return None;
+    }
     let slip = only_one(robot, |slip| {
         wrong.iter().all(|(facts, q, answered)| {
             let taken = slip.undone(facts.robot, q);

@@ -44,6 +44,13 @@ fn positions(answers: &Answers<'_>) -> Option<CauseOfAnswers> {
     if wrong.len() < answers.wrong.len() || wrong.len() < super::LEAST_WRONG {
         return None;
     }
+    // of a pose the orientation alone may be wrong
+    if wrong
+        .iter()
+        .any(|(answered, truth)| (answered - truth).norm() <= SAME_M)
+    {
+        return None;
+    }
     let count = wrong.len();
     let all = |meant: &dyn Fn(Vector3<f64>) -> Vector3<f64>| {
         wrong

@@ -276,6 +276,14 @@ impl Names {
         };
         let owner = owner.unwrap_or("it");
         let message = format!("`{owner}` has no `{key}`");
+        if keys.contains(key) && !std::ptr::eq(keys, &raw const self.robot) {
+            return (
+                message,
+                Some(format!(
+                    "this `{owner}` is a map of your own: print({owner}) shows what it has"
+                )),
+            );
+        }
         if keys.contains(key) {
             // that of the lab has it, and this is that of a case
             return (
