@@ -177,8 +177,8 @@ test("a picture is drawn in the pixels of its moment, also where no event and no
 
 test("names of frames are in the picture on paper, and not over it", async () => {
   const run = replay();
-  // long: how many pixels of a letter have the full colour is a matter of the font
-  run.frames[0].name = "W".repeat(30);
+  // full blocks: how many pixels of a letter have the full colour is a matter of the font
+  run.frames[0].name = "█".repeat(30);
   const { page, close } = await open(write("paper.html", html([run])));
   await page.waitForSelector(".replay canvas");
   const dark = () => page.evaluate(async () => {
