@@ -171,8 +171,13 @@ fn margins(checked: &Path, lab: &str) -> String {
                 [low.min(it), high.max(it)]
             });
         let [task, check] = [&band["task"], &band["check"]].map(|it| it.as_str().expect("a name"));
-        let [least, greatest] = [least, greatest].map(|margin| 100.0 * margin);
-        format!("| {lab} | {task} | {check} | {least:.0} % | {greatest:.0} % |\n")
+        // a small one is not none
+        let percent = |margin: f64| match 100.0 * margin {
+            small if small.abs() < 0.95 => format!("{small:.1} %"),
+            margin => format!("{margin:.0} %"),
+        };
+        let [least, greatest] = [least, greatest].map(percent);
+        format!("| {lab} | {task} | {check} | {least} | {greatest} |\n")
     };
     // what is right or wrong has no margin
     let has_margin = |band: &&serde_json::Value| {

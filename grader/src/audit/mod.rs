@@ -162,38 +162,6 @@ impl Audit {
         self.add((Tried::Starter, file), None, None, problem);
     }
 
-    /// Doubts a starter in another language that has most of the solution in that language in it.
-    pub fn starter_beside_solution(&mut self, file: &str, starter: &str, solution: &str) {
-        /// A shorter line is in every program.
-        const TELLING: usize = 16;
-        /// How lines begin that a starter has, too.
-        const FRAME: [&str; 10] = [
-            "#", "//", "/*", "*", "\"\"\"", "import ", "from ", "use ", "def ", "fn ",
-        ];
-        let lines = |text: &'_ str| -> Vec<String> {
-            let lines = text
-                .lines()
-                .map(|line| line.trim().trim_start_matches("pub "));
-            let is_own = |line: &&str| {
-                line.len() >= TELLING && !FRAME.iter().any(|frame| line.starts_with(frame))
-            };
-            lines.filter(is_own).map(str::to_owned).collect()
-        };
-        let (starter, solution) = (lines(starter), lines(solution));
-        let given = solution
-            .iter()
-            .filter(|line| starter.contains(line))
-            .count();
-        if given > 0 && 2 * given >= solution.len() {
-            let what = format!(
-                "{file} has {given} of {} lines of the reference solution",
-                solution.len()
-            );
-            let help = "leave the functions empty, as the starter in Rhai does";
-            self.add((Tried::Starter, file), None, None, Some((what, help)));
-        }
-    }
-
     /// Tries the reference solution in the form `form` of the lab.
     pub fn reference(&mut self, lab: &Lab, staff: &Staff, form: &str) -> Option<Grade> {
         self.take(Form::new(lab, staff).reference(form))

@@ -121,7 +121,8 @@ impl Grader<'_> {
     }
 
     /// An earlier task of the function from which such a motion is made, if it lost more than half of its points: the Jacobian for
-    /// velocities, and inverse kinematics for positions and where a lab has no task of the Jacobian. A function that is wrong in some cases alone says nothing about the motion.
+    /// velocities, and inverse kinematics for positions and where a lab has no task of the Jacobian. A function that is wrong in some
+    /// cases alone says nothing about the motion.
     fn unsolved_before(&self, task: &Task, work: &MotionTask) -> Option<&str> {
         let before = self.lab.tasks.iter();
         let before = before.take_while(|known| known.name != task.name);

@@ -208,13 +208,13 @@ pub fn without_marks(brief: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::lab::copies::Copies;
 
     #[test]
     fn pictures_are_found_with_and_without_a_title() {
         let brief = "![an arm](arm.svg) and [a page](page.md), ![a plot](p.svg \"a plot\"), ![](https://a.b/c.svg), `vec![0.0; 2]` and [more](#more)";
         assert_eq!(pictures(brief).collect::<Vec<_>>(), ["arm.svg", "p.svg"]);
     }
-    use crate::lab::copies::Copies;
 
     const LAB: &str = r#"
 format = 1

@@ -295,9 +295,9 @@ fn ended_soon(child: &mut Child) -> Option<ExitStatus> {
     None
 }
 
-/// Whether a process that was not waited for has used the CPU time that it may have, as the system says: at least three quarters of it. The limit
-/// counts the ticks of the clock that find the process running, and the system says how long it ran: beside others on a busy machine, that
-/// was 10 % less and more.
+/// Whether a process that was not waited for has used the CPU time that it may have, as the system says: at least three quarters of it. The
+/// limit counts the ticks of the clock that find the process running, and the system says how long it ran: beside others on a busy machine,
+/// that was 10 % less and more.
 #[cfg(target_os = "linux")]
 fn is_out_of_cpu_time(id: u32) -> bool {
     let read = |name: &str| std::fs::read_to_string(format!("/proc/{id}/{name}")).ok();

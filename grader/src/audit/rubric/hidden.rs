@@ -1,4 +1,5 @@
-//! What is hidden: cases and runs that are the visible ones again, ranges of no width, and the salt that they are drawn by.
+//! What is hidden: tasks without any of it, cases and runs that are the visible ones or each other again, ranges of no width, and the salt
+//! that they are drawn by.
 
 use kinemark_sim::text::Dimension;
 
@@ -33,7 +34,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                 let hidden = staff.draws.iter().filter(|draw| draw.task == task.name);
                 let hidden: Vec<&HiddenCases> = hidden.collect();
                 if hidden.is_empty() && function.cases.iter().all(can_be_drawn) {
-                    doubts.push(nothing_hidden(task, "cases"));
+                    doubts.push(nothing_hidden(task, ("cases", "draws")));
                 }
                 doubts.extend(drawn_twice(task, &hidden));
                 for draw in hidden {
@@ -87,7 +88,7 @@ fn of_runs(lab: &Lab, staff: &Staff, task: &Task, doubts: &mut Vec<Doubt>) {
     let mut known: Vec<&str> = Vec::new();
     // nothing else can differ in a run
     if staff.runs(&task.name).is_empty() && uses_parameters(lab, task) {
-        doubts.push(nothing_hidden(task, "runs"));
+        doubts.push(nothing_hidden(task, ("runs", "runs")));
     }
     for run in staff.runs(&task.name) {
         // other numbers may change nothing of this task
@@ -124,9 +125,8 @@ fn can_be_drawn(case: &Case) -> bool {
     }
 }
 
-/// A task of which students see everything.
-fn nothing_hidden(task: &Task, what: &str) -> Doubt {
-    let table = if what == "runs" { "runs" } else { "draws" };
+/// A task of which students see everything: it has no `what`, which `table` of hidden.toml gives it.
+fn nothing_hidden(task: &Task, (what, table): (&str, &str)) -> Doubt {
     Doubt {
         rule: "hidden",
         of: task.name.clone(),

@@ -11,12 +11,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     cases(rubric, doubts);
     mutants(rubric, doubts);
     if let Ok(table) = rubric.lab.source.text().parse::<Table>() {
-        let tasks = table.get("tasks").and_then(Toml::as_array);
-        let tasks: Vec<&Table> = tasks
-            .into_iter()
-            .flatten()
-            .filter_map(Toml::as_table)
-            .collect();
+        let tasks = tables(&table, "tasks");
         checks(&tasks, doubts);
         functions(&tasks, doubts);
     }
@@ -40,15 +35,14 @@ fn cases(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         for (i, case) in function.cases.iter().enumerate() {
             let mut before = function.cases[..i].iter();
             if let Some(first) = before.find(|first| is_same(first, case)) {
-                doubts.push(Doubt {
-                    rule: "cases",
-                    of: format!("{}/{}", task.name, case.name),
-                    what: format!(
+                doubts.push(doubt(
+                    format!("{}/{}", task.name, case.name),
+                    format!(
                         "the same numbers as case \"{}\": who fails one fails both",
                         first.name
                     ),
-                    help: "give it other numbers, or remove it".to_owned(),
-                });
+                    "give it other numbers, or remove it",
+                ));
             }
         }
     }
@@ -75,12 +69,7 @@ fn mutants(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
 /// Checks of one task that measure the same.
 fn checks(tasks: &[&Table], doubts: &mut Vec<Doubt>) {
     for task in tasks {
-        let checks = task.get("checks").and_then(Toml::as_array);
-        let checks: Vec<&Table> = checks
-            .into_iter()
-            .flatten()
-            .filter_map(Toml::as_table)
-            .collect();
+        let checks = tables(task, "checks");
         for (i, check) in checks.iter().enumerate() {
             let measures = measures(check);
             let mut before = checks[..i].iter();
@@ -127,6 +116,13 @@ fn functions(tasks: &[&Table], doubts: &mut Vec<Doubt>) {
             ));
         }
     }
+}
+
+/// The tables of a list.
+fn tables<'t>(table: &'t Table, list: &str) -> Vec<&'t Table> {
+    let items = table.get(list).and_then(Toml::as_array);
+    let items = items.into_iter().flatten();
+    items.filter_map(Toml::as_table).collect()
 }
 
 fn name(table: &Table) -> &str {

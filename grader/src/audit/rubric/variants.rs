@@ -1,4 +1,4 @@
-//! Numbers of lab.toml that no student's variant has.
+//! Numbers of lab.toml that no student's variant has, and variants that do not vary.
 
 use toml::{Table, Value as Toml};
 
