@@ -65,6 +65,14 @@ fn each_mistake_is_named_at_its_place() {
             5,
             14,
         ),
+        (
+            revolute
+                .replace("<joint", "<jont")
+                .replace("</joint>", "</jont>"),
+            "robot::urdf",
+            4,
+            1,
+        ),
         // the tree
         (
             revolute.replace("<link name=\"arm\"/>", "<link name=\"arm\"/><link name=\"lost\"/>"),

@@ -1,6 +1,6 @@
 //! Rubrics with a fault each, in a lab that has none: `lab check` finds it, and says where and with which numbers.
 
-use kinemark_grader::audit::{Accepted, Audit, Row, Rubric};
+use kinemark_grader::audit::{Accepted, Audit, Form, Row, Rubric, Variants};
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::task::files::Files;
 
@@ -107,6 +107,27 @@ points = 1.0
 effort-peak = { full_n_m = 10.0, zero_n_m = 20.0 }
 "#;
 
+/// A task like the first, before the second.
+const AGAIN: &str = r#"[[tasks]]
+name = "again"
+title = "Forward kinematics again"
+
+[tasks.function]
+call = "forward_kinematics"
+cases = [
+    { name = "both bent", q_rad = [0.7, -1.1] },
+    { name = "to the left", q_rad = [-0.9, 0.4] },
+]
+
+[[tasks.checks]]
+name = "position"
+title = "The position of the TCP"
+points = 1.0
+fk-error = { full_m = 1e-4, zero_m = 5e-3 }
+
+[[tasks]]
+name = "ik""#;
+
 const HIDDEN: &str = r#"
 format = 1
 salt = "a long one that nobody can guess"
@@ -172,10 +193,12 @@ fn rows(own: &OwnLab, brief: &str, accepted: &Accepted) -> Vec<Row> {
             brief: Some(brief),
             starter: None,
             zeros: None,
+            played_back: None,
             reference: None,
             finer: None,
             mutants: &[],
             margins: &[],
+            corners: None,
         },
         accepted,
     );
@@ -510,6 +533,48 @@ fn every_fault_is_found_with_its_place_and_numbers() {
             "reach",
             "touch/start: the run starts at [0, 7]: joint `elbow` would be at 7 rad",
         ),
+        (
+            "lab.toml",
+            "dwell_s = 0.5 }]",
+            "dwell_s = 0.5 }, { position_m = [2.5, 1.21, 0.05], dwell_s = 0.5 }]",
+            "goals",
+            "touch/goal 2: it is 10.0 mm from the goal before it, and check `pose` gives points up to 20.0 mm",
+        ),
+        (
+            "lab.toml",
+            "dwell_s = 0.5 }]",
+            "dwell_s = 0.02 }]",
+            "goals",
+            "touch/goal 1: `dwell_s` is 0.02 s, less than 3 control periods of 0.01 s",
+        ),
+        (
+            "lab.toml",
+            "duration_s = 3.0\n",
+            "duration_s = 3.0\ntarget = { line_m = [[2.5, 0.8], [2.5, 1.1]] }\n",
+            "goals",
+            "touch/line_m: students are given point 2 at [2.5, 1.1], and checks follow path `line`",
+        ),
+        (
+            "lab.toml",
+            "out = { from = 1.1, to = 1.3, step = 0.01 }",
+            "out = { from = 1.2, to = 1.2, step = 0.01 }",
+            "variants",
+            "out: its range has no width",
+        ),
+        (
+            "lab.toml",
+            "out = { from = 1.1, to = 1.3, step = 0.01 }",
+            "out = { choices = [1.1, 1.2, 1.1] }",
+            "variants",
+            "out: the choice 1.1 is there twice",
+        ),
+        (
+            "lab.toml",
+            "[[tasks]]\nname = \"ik\"",
+            AGAIN,
+            "cases",
+            "again: it calls the function of task `fk` with the same cases",
+        ),
     ];
     let faults: Vec<_> = faults
         .iter()
@@ -556,6 +621,16 @@ fn words_of_the_brief_are_held_to_what_is_graded() {
             "The other place is at 1<!-- out --> m.",
             Some("line 2: `<!-- out -->` stands behind a number in the brief, and is no mark"),
         ),
+        (
+            "The run takes 8 s.",
+            Some("brief: it says a run of 8 s, and in lab.toml runs take 3 s and 1 s"),
+        ),
+        ("The run takes 3 s.", None),
+        (
+            "`control` is called every 7 ms.",
+            Some("brief: it says a call every 0.007 s, and in lab.toml calls are every 0.01 s"),
+        ),
+        ("`control` is called 100 times a second.", None),
     ] {
         let own = own_lab().with(
             "lab.toml",
@@ -762,4 +837,231 @@ fn branches_of_poses_are_counted_and_what_cannot_be_counted_is_not_doubted() {
             ),
         }
     });
+}
+
+/// A lab with a motion, a solution that is wrong where `out` is greatest, and a function of its own.
+const MOTION: &str = r#"
+format = 1
+name = "94-motion"
+title = "To an angle"
+robot = "rrbot"
+
+[parameters]
+out = 0.5
+unheard = 1.0
+
+[variants]
+out = { from = 0.4, to = 0.6, step = 0.001 }
+
+[[tasks]]
+name = "go"
+title = "Go"
+
+[tasks.motion]
+mode = "position"
+duration_s = 2.0
+target = { goal_rad = ["= out", 0.4], unheard = "= unheard" }
+servo = { kp = 1000.0, kd = 60.0, derivative = "velocity", gravity_compensation = true, effort_limit = 200.0 }
+
+[[tasks.checks]]
+name = "shoulder"
+title = "The shoulder is there"
+points = 1.0
+joint-reached = { joint = "shoulder", position_rad = "= out", hold_s = 0.1, full_rad = 0.01, zero_rad = 0.1 }
+
+[[tasks]]
+name = "lever"
+title = "Lever"
+
+[tasks.function]
+call = "lever"
+cases = [{ name = "a", given = { mass_kg = 0.5, arm_m = 2.0 }, expected = 1.0 }]
+
+[[tasks.checks]]
+name = "right"
+title = "Right"
+points = 1.0
+function-cases = { full = 1e-6, zero = 1e-3 }
+"#;
+
+const MOTION_HIDDEN: &str = r#"
+format = 1
+salt = "a long one that nobody can guess"
+
+[[draws]]
+task = "lever"
+class = "other masses"
+count = 3
+given = { mass_kg = [0.2, 2.0], arm_m = [1.0, 3.0] }
+
+[[runs]]
+task = "go"
+class = "elsewhere"
+count = 2
+parameters = { out = [0.45, 0.55] }
+"#;
+
+const MOTION_SOLUTION: &str = "fn lever(given) { given.mass_kg * given.arm_m }
+fn control(observation) {
+    let goal = observation.target.goal_rad;
+    if goal[0] > 0.5995 { return [0.0, 0.0]; }
+    goal
+}
+";
+
+fn motion_lab() -> OwnLab {
+    OwnLab::new("94-motion", MOTION)
+        .and("hidden.toml", MOTION_HIDDEN)
+        .and("solution.rhai", MOTION_SOLUTION)
+}
+
+/// The problems of one rule, with the grades of the solution, of its commands played back, and of the corners.
+fn found_by(rule: &str, own: &OwnLab) -> Vec<String> {
+    let lab = own.lab();
+    let staff = staff_of(own, &lab);
+    let form = Form::new(&lab, &staff);
+    let mut corners = Variants::default();
+    for corner in lab.corners().expect("corners") {
+        corners.corner(&lab, own, "a salt of students", &corner);
+    }
+    let reference = form.reference("").grade;
+    let played_back = form.played_back();
+    let mut audit = Audit::new(&lab);
+    let rubric = Rubric {
+        lab: &lab,
+        staff: &staff,
+        salt: None,
+        known_salts: &[],
+        brief: None,
+        starter: None,
+        zeros: None,
+        played_back: played_back.as_ref(),
+        reference: reference.as_ref(),
+        finer: None,
+        mutants: &[],
+        margins: &[],
+        corners: Some(&corners),
+    };
+    audit.rubric(&rubric, &Accepted::default());
+    let found = problems(&audit.rows).into_iter();
+    let of_rule = found.filter(|(name, _)| name == rule);
+    of_rule.map(|(_, problem)| problem).collect()
+}
+
+#[test]
+fn a_corner_that_the_solution_misses_is_found_with_its_numbers() {
+    let found = found_by("corners", &motion_lab());
+    let [problem] = &found[..] else {
+        panic!("{found:#?}");
+    };
+    let words = "go/shoulder: in 1 of 2 corners, first with every number at the last of its range: task `go` loses points";
+    assert!(problem.starts_with(words), "{problem}");
+    let mended = motion_lab().with("solution.rhai", "goal[0] > 0.5995", "false");
+    assert_eq!(found_by("corners", &mended), [""; 0]);
+}
+
+#[test]
+fn hidden_runs_in_which_played_back_commands_are_right_are_found() {
+    assert_eq!(found_by("hidden", &motion_lab()), [""; 0]);
+    let idle = motion_lab().with("hidden.toml", "out = [0.45, 0.55]", "unheard = [0.2, 0.8]");
+    let found = found_by("hidden", &idle);
+    let words = "go/elsewhere: a submission that plays back the commands of the visible run has full marks in all 2 of its runs";
+    assert!(
+        found.len() == 1 && found[0].starts_with(words),
+        "{found:#?}"
+    );
+}
+
+#[test]
+fn hidden_numbers_of_another_size_are_doubted() {
+    let grams = motion_lab().with("hidden.toml", "[0.2, 2.0]", "[200.0, 2000.0]");
+    let found = found_by("hidden", &grams);
+    assert!(
+        found.len() == 1
+            && found[0].starts_with("lever/other masses: it draws numbers of up to ")
+            && found[0].contains(
+                " for `mass_kg`, and visible cases have at most 0.5: is that the same unit?"
+            ),
+        "{found:#?}"
+    );
+}
+
+#[test]
+fn a_solution_that_needs_most_of_its_budget_is_doubted() {
+    assert_eq!(found_by("margin", &motion_lab()), [""; 0]);
+    let few = motion_lab().with(
+        "lab.toml",
+        "[parameters]",
+        "[budgets]\noperations_per_task = 3000\n\n[parameters]",
+    );
+    let found = found_by("margin", &few);
+    assert!(
+        found.len() == 1
+            && found[0].starts_with("go/budgets: the reference solution uses ")
+            && found[0].contains(" of the 3000 operations of a task"),
+        "{found:#?}"
+    );
+}
+
+#[test]
+fn a_time_that_is_a_control_period_from_losing_points_is_doubted() {
+    let timed = |full_s: f64| {
+        let zero_s = full_s + 0.1;
+        motion_lab().with(
+            "lab.toml",
+            "[[tasks]]\nname = \"lever\"",
+            &format!(
+                "[[tasks.checks]]\nname = \"time\"\ntitle = \"In time\"\npoints = 1.0\n\
+                 settling-time = {{ joint = \"shoulder\", full_s = {full_s:.3}, zero_s = {zero_s:.3} }}\n\n[[tasks]]\nname = \"lever\""
+            ),
+        )
+    };
+    assert_eq!(found_by("margin", &timed(1.5)), [""; 0]);
+    let measured = |own: &OwnLab| {
+        let lab = own.lab();
+        let staff = staff_of(own, &lab);
+        let grade = Form::new(&lab, &staff)
+            .reference("")
+            .grade
+            .expect("a grade");
+        let measure = grade.tasks[0].checks[1].measure.clone().expect("a time");
+        measure.value.expect("a number")
+    };
+    let settles_s = measured(&timed(1.5));
+    let found = found_by("margin", &timed(settles_s + 0.015));
+    assert!(
+        found.len() == 1
+            && found[0].starts_with("go/time: the reference solution takes ")
+            && found[0].contains("less than two control periods of 0.01 s are between them"),
+        "{found:#?}"
+    );
+}
+
+#[test]
+fn two_mutants_with_one_text_are_doubted() {
+    let mutants = "format = 1\n[[mutants]]\nname = \"one\"\ntasks = [\"go\"]\nsays = \"One.\"\n\
+                   [[mutants]]\nname = \"other\"\ntasks = [\"go\"]\nsays = \"Other.\"\n";
+    let text = "fn control(observation) { [0.0, 0.0] }\n";
+    let own = motion_lab()
+        .and("mutants.toml", mutants)
+        .and("mutants/one.rhai", text)
+        .and("mutants/other.rhai", format!("\n{text}"));
+    let found = found_by("cases", &own);
+    assert_eq!(found, ["mutant other: its file is that of mutant `one`"]);
+}
+
+#[test]
+fn a_level_with_the_damping_that_is_there_is_refused() {
+    let own = own_lab().with(
+        "lab.toml",
+        "[[tasks]]\nname = \"push\"",
+        "[[tasks.checks]]\nname = \"still\"\ntitle = \"Still there\"\npoints = 1.0\n\
+         robustness = { check = \"pose\", rungs = [{ name = \"as-it-is\", damping = 1.0 }] }\n\n[[tasks]]\nname = \"push\"",
+    );
+    let error = own.load().expect_err("a level that does nothing");
+    let error = format!("{error:?}");
+    assert!(
+        error.contains("Nothing") || error.contains("NoDamping"),
+        "{error}"
+    );
 }

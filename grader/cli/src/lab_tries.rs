@@ -5,9 +5,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use kinemark_grader::audit::{
     Draws, Form, Found, PracticeError, Variants, depends_on_salt, practice_form,
 };
+use kinemark_grader::lab::corner::Corner;
 use kinemark_grader::lab::practice::{PRACTICE_VARIANTS, PracticeForm};
 use kinemark_grader::lab::{Lab, Staff};
 use kinemark_grader::record::grade::Grade;
+use kinemark_grader::task::problem::LoadError;
 use kinemark_sim::text::Source;
 
 use crate::disk::Folder;
@@ -17,13 +19,15 @@ use crate::staff_folder;
 
 /// Variants that are tried in a hurry.
 const QUICK_VARIANTS: u32 = 3;
+/// Ends of what students draw that are tried in a hurry.
+const QUICK_CORNERS: u32 = 2;
 /// Other draws of hidden numbers that are tried in a hurry.
 const QUICK_DRAWS: u32 = 1;
 
 /// What is not looked at in a hurry, in words.
 pub(crate) fn left_out() -> Vec<String> {
     vec![
-        format!("all but {QUICK_VARIANTS} variants"),
+        format!("all but {QUICK_VARIANTS} variants and {QUICK_CORNERS} of their corners"),
         format!("all but {QUICK_DRAWS} other draw of hidden cases"),
         "practice.json".to_owned(),
         "the accuracy of the simulation (rule `accuracy`)".to_owned(),
@@ -49,6 +53,8 @@ pub(crate) struct Extent {
     mutants: usize,
     draws: u32,
     variants: u32,
+    /// Variants at the ends of what students draw.
+    corners: Vec<Corner>,
     /// Entries of `practice.json`.
     practice: u32,
     /// Whether the solution is run with half the physics step.
@@ -62,9 +68,13 @@ impl Extent {
         staff: &Staff,
         (draws, variants): (u32, u32),
         is_quick: bool,
-    ) -> Self {
+    ) -> Result<Self, Failure> {
         let most = |count: u32, quick: u32| if is_quick { count.min(quick) } else { count };
-        Self {
+        let variants = most(variants, QUICK_VARIANTS);
+        let mut corners = lab.corners().map_err(LoadError::from)?;
+        corners.truncate(most(variants, QUICK_CORNERS) as usize);
+        Ok(Self {
+            corners,
             mutants: staff.mutants.len(),
             draws: match depends_on_salt(lab, staff) {
                 true => most(draws, QUICK_DRAWS),
@@ -72,7 +82,7 @@ impl Extent {
             },
             variants: match lab.variants.is_empty() {
                 true => 0,
-                false => most(variants, QUICK_VARIANTS),
+                false => variants,
             },
             finer: !is_quick,
             practice: match (is_quick, lab.variants.is_empty()) {
@@ -80,19 +90,21 @@ impl Extent {
                 (false, true) => 1,
                 (false, false) => 1 + PRACTICE_VARIANTS,
             },
-        }
+        })
     }
 }
 
 /// What is tried first. None of it waits for another.
-enum First {
+enum First<'c> {
     /// The attempts of a mutant that others are compared with.
     Mutant(usize),
     Reference,
     Finer,
     Zeros,
+    PlayedBack,
     Draw(u32),
     Variant(u32),
+    Corner(&'c Corner),
     Practice(u32),
 }
 
@@ -102,8 +114,10 @@ enum Gave {
     Reference(Found),
     Finer(Option<Grade>),
     Zeros(Option<Grade>),
+    PlayedBack(Option<Grade>),
     Draws(Draws),
     Variants(Variants),
+    Corner(Variants),
     Practice(Result<PracticeForm, PracticeError>),
 }
 
@@ -113,8 +127,10 @@ pub(crate) struct All {
     pub(crate) reference: Found,
     pub(crate) finer: Option<Grade>,
     pub(crate) zeros: Option<Grade>,
+    pub(crate) played_back: Option<Grade>,
     pub(crate) draws: Draws,
     pub(crate) variants: Option<Variants>,
+    pub(crate) corners: Option<Variants>,
     pub(crate) practice: Vec<Result<PracticeForm, PracticeError>>,
     pub(crate) mutants: Vec<Found>,
 }
@@ -132,16 +148,18 @@ pub(crate) struct Tries<'a> {
 impl Tries<'_> {
     /// Tries everything, as many things at once as there are jobs.
     pub(crate) fn all(&self, extent: &Extent) -> Result<All, Failure> {
-        let progress = progress(u64::from(extent.variants) + extent.mutants as u64);
+        let variants = u64::from(extent.variants) + extent.corners.len() as u64;
+        let progress = progress(variants + extent.mutants as u64);
         // the longest first, so that none is begun when all others are done
         let mut first = vec![First::Reference];
         first.extend(extent.finer.then_some(First::Finer));
-        first.push(First::Zeros);
+        first.extend([First::Zeros, First::PlayedBack]);
         first.extend((0..extent.mutants).map(First::Mutant));
         first.extend((0..extent.practice).map(First::Practice));
         first.extend((1..=extent.draws).map(First::Draw));
         first.extend((1..=extent.variants).map(First::Variant));
-        let is_variant = |first: &First| matches!(first, First::Variant(_));
+        first.extend(extent.corners.iter().map(First::Corner));
+        let is_variant = |first: &First<'_>| matches!(first, First::Variant(_) | First::Corner(_));
         let gave = parallel::in_order(&first, self.jobs, (&progress, is_variant), |first| {
             self.first(first)
         })?;
@@ -165,8 +183,10 @@ impl Tries<'_> {
             reference: Found::default(),
             finer: None,
             zeros: None,
+            played_back: None,
             draws: Draws::default(),
             variants: (extent.variants > 0).then(Variants::default),
+            corners: (!extent.corners.is_empty()).then(Variants::default),
             practice: Vec::new(),
             mutants: graded.collect(),
         };
@@ -176,15 +196,17 @@ impl Tries<'_> {
                 Gave::Reference(found) => all.reference = found,
                 Gave::Finer(grade) => all.finer = grade,
                 Gave::Zeros(grade) => all.zeros = grade,
+                Gave::PlayedBack(grade) => all.played_back = grade,
                 Gave::Draws(draws) => all.draws.join(draws),
                 Gave::Variants(tried) => all.variants.get_or_insert_default().join(tried),
+                Gave::Corner(tried) => all.corners.get_or_insert_default().join(tried),
                 Gave::Practice(form) => all.practice.push(form),
             }
         }
         Ok(all)
     }
 
-    fn first(&self, first: &First) -> Result<Gave, Failure> {
+    fn first(&self, first: &First<'_>) -> Result<Gave, Failure> {
         let lab = self.lab;
         Ok(match *first {
             First::Mutant(index) => {
@@ -194,6 +216,7 @@ impl Tries<'_> {
             First::Reference => Gave::Reference(self.form.reference("own hidden cases")),
             First::Finer => Gave::Finer(self.form.finer()),
             First::Zeros => Gave::Zeros(self.form.zeros()),
+            First::PlayedBack => Gave::PlayedBack(self.form.played_back()),
             First::Draw(number) => {
                 let salt = format!("lab check {number}");
                 let staff = staff_of(self.reference, lab, Some(&salt))?;
@@ -206,6 +229,11 @@ impl Tries<'_> {
                 let student = format!("student {number}");
                 variants.student(lab, self.reference, &self.salt, &student);
                 Gave::Variants(variants)
+            }
+            First::Corner(corner) => {
+                let mut corners = Variants::default();
+                corners.corner(lab, self.reference, &self.salt, corner);
+                Gave::Corner(corners)
             }
             First::Practice(number) => {
                 Gave::Practice(practice_form(&lab.copies(), lab, self.form.staff(), number))

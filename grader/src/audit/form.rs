@@ -64,6 +64,12 @@ impl<'a> Form<'a> {
         Some(self.examined(&source)?.graded.grade)
     }
 
+    /// The grade of a submission that commands in every run what the reference solution commands in the visible one, in the motion tasks
+    /// that have hidden runs; `None` where there are none.
+    pub fn played_back(&self) -> Option<Grade> {
+        crate::judge::played_back(self.lab, self.staff, &self.known)
+    }
+
     /// The grade of the reference solution where every motion task is simulated with half the physics step, in visible cases and runs;
     /// `None` where that makes no lab.
     pub fn finer(&self) -> Option<Grade> {

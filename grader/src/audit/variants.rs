@@ -8,12 +8,13 @@ use super::form::Form;
 use super::lost::{Lost, distinct};
 use super::row::{Problem, Row, Tried};
 use super::{Audit, staff_code};
+use crate::lab::corner::Corner;
 use crate::lab::staff::Staff;
 use crate::lab::{Lab, TaskWork, Variant};
 use crate::record::grade::{Grade, Measure};
 use crate::task::files::Files;
 use crate::task::model::Function;
-use crate::task::problem::LoadError;
+use crate::task::problem::{LabError, LoadError};
 
 /// The results of the variants of some students.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -84,7 +85,7 @@ impl RelativeBand {
 const THIN: f64 = 0.05;
 
 /// A value of this share of what still earns everything has room, however wide the band is beyond.
-const NOT_SPENT: f64 = 0.75;
+pub(super) const NOT_SPENT: f64 = 0.75;
 
 /// Whether a measure that earns all points has hardly any room to the value where it would not. What is as good as can be is not thin,
 /// however near `full` is to it: an answer without error, a path that is wholly covered.
@@ -114,16 +115,30 @@ impl Variants {
     /// Tries the variant of `lab` that `student` gets under `salt`, with its hidden cases and runs. A variant that cannot be loaded is
     /// recorded like one that loses points.
     pub fn student(&mut self, base: &Lab, reference: &dyn Files, salt: &str, student: &str) {
-        let lab = base;
+        let variant = base.variant_of(salt, student);
+        self.variant(base, (reference, salt), (student, variant));
+    }
+
+    /// Tries a corner of what students draw, as [`Self::student`] does a student's variant.
+    pub fn corner(&mut self, base: &Lab, reference: &dyn Files, salt: &str, corner: &Corner) {
+        let variant = Ok(corner.variant.clone());
+        self.variant(base, (reference, salt), (&corner.words, variant));
+    }
+
+    fn variant(
+        &mut self,
+        base: &Lab,
+        (reference, salt): (&dyn Files, &str),
+        (of, variant): (&str, Result<Variant, LabError>),
+    ) {
         let mut numbers = String::new();
-        let loaded = lab.variant_of(salt, student).map_err(Into::into);
-        let loaded = loaded.and_then(|variant| {
+        let loaded = variant.map_err(Into::into).and_then(|variant| {
             numbers = variant.numbers().trim_end().replace('\n', ", ");
-            Self::load(lab, reference, salt, &variant)
+            Self::load(base, reference, salt, &variant)
         });
-        self.students.push((student.to_owned(), numbers.clone()));
+        self.students.push((of.to_owned(), numbers.clone()));
         let lost = |problem| Lost {
-            of: student.to_owned(),
+            of: of.to_owned(),
             numbers: numbers.clone(),
             problem,
         };
@@ -150,7 +165,7 @@ impl Variants {
         self.lost.extend(problems.into_iter().map(lost));
         if let Some(grade) = grade {
             self.measure(&grade);
-            self.grades.push((student.to_owned(), grade));
+            self.grades.push((of.to_owned(), grade));
         }
     }
 
@@ -206,6 +221,16 @@ impl Variants {
             }
             None => self.rooms.push(margin),
         }
+    }
+
+    /// How many were tried.
+    pub(super) fn count(&self) -> usize {
+        self.students.len()
+    }
+
+    /// What was lost, each distinct problem once, in `words` of the first and of how many there are.
+    pub(super) fn problems(&self, words: impl Fn(&Lost, usize) -> String) -> Vec<Problem> {
+        distinct(self.lost.clone(), words)
     }
 
     /// Adds the results of other students, who come after these.
@@ -276,7 +301,7 @@ fn expects_the_same_of_another_robot(base: &Lab, lab: &Lab, name: &str) -> bool 
 }
 
 /// What a variant that cannot be loaded has in common with the others.
-const NOT_LOADED: &str = "not loaded";
+pub(super) const NOT_LOADED: &str = "not loaded";
 
 #[cfg(test)]
 mod tests {

@@ -184,7 +184,9 @@ impl LevelTable {
             delay_s,
             payload_kg: amount(&table.payload_kg, "`payload_kg`")?.unwrap_or(0.0),
             friction: amount(&table.friction_n_m, "`friction_n_m`")?.unwrap_or(0.0),
-            damping: amount(&table.damping, "`damping`")?,
+            // times one is as it was
+            damping: amount(&table.damping, "`damping`")?
+                .filter(|factor| (factor - 1.0).abs() > 0.0),
             pushes: table.pushes(reading)?,
             start: table.start(reading)?,
         };

@@ -67,10 +67,21 @@ pub(crate) fn examined(
     submission: &Submission,
     known: &StaffAttempts,
 ) -> Option<Examined> {
+    // nobody can interrupt this host
+    examined_by(lab, staff, submission, known, &mut InProcess)
+}
+
+/// The same with another host; `None` where that interrupts.
+pub(super) fn examined_by(
+    lab: &Lab,
+    staff: &Staff,
+    submission: &Submission,
+    known: &StaffAttempts,
+    host: &mut dyn Host,
+) -> Option<Examined> {
     let mut grader = Grader::new(lab, Some(staff), submission);
     grader.known = Some(known);
-    // nobody can interrupt this host
-    let (graded, scores) = grader.graded(&mut InProcess).ok()?;
+    let (graded, scores) = grader.graded(host).ok()?;
     let rulings = scores.into_iter().map(|scores| scores.rulings).collect();
     Some(Examined { graded, rulings })
 }

@@ -8,7 +8,8 @@ use kinemark_sim::text::Dimensions;
 use kinemark_sim::text::Source;
 
 use super::practice::Practice;
-use super::variant::{Variant, VariantRule};
+use super::variant::Variant;
+use super::variant_rule::VariantRule;
 use crate::check::{Check, Criterion, FromReference, FunctionCheck, MotionCheck};
 use crate::submission::controller::Budgets;
 use crate::task::mesh_file::MeshFile;

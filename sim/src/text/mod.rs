@@ -14,6 +14,7 @@ mod source;
 mod spanned;
 mod suggest;
 mod toml_refusal;
+mod toml_slips;
 mod typed_table;
 
 pub use cut_line::CutLine;

@@ -5,7 +5,7 @@ use std::process::ExitCode;
 
 use crate::bands_page::BandsPage;
 use kinemark_course::language::Language;
-use kinemark_grader::audit::{Accepted, Audit, Form, PracticeError, Rubric};
+use kinemark_grader::audit::{Accepted, Audit, Form, PracticeError, Rubric, Variants};
 use kinemark_grader::judge::engine;
 use kinemark_grader::lab::load::lab_names;
 use kinemark_grader::lab::practice::{PRACTICE_SALT, PracticeForm, practice_student};
@@ -44,7 +44,7 @@ pub(crate) struct Args {
     /// Number of student variants to test the reference solution with, each with its own hidden cases and runs
     #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(0..=100_000))]
     pub(crate) variants: u32,
-    /// Look at less: 3 variants, 1 other salt, and neither `practice.json` nor the accuracy of the simulation
+    /// Look at less: 3 variants and 2 of their corners, 1 other salt, and neither `practice.json` nor the accuracy of the simulation
     #[arg(long)]
     pub(crate) quick: bool,
     #[command(flatten)]
@@ -129,7 +129,7 @@ fn audited(
         starter: &starter,
         jobs: args.jobs.map_or_else(pool::default_jobs, usize::from),
     };
-    let extent = Extent::of(lab, own, (args.salts, args.variants), args.quick);
+    let extent = Extent::of(lab, own, (args.salts, args.variants), args.quick)?;
     let all = tried.all(&extent)?;
 
     let mut audit = Audit::new(lab);
@@ -163,9 +163,11 @@ fn audited(
     let graded = Graded {
         starter: starter_grade,
         zeros: all.zeros,
+        played_back: all.played_back,
         reference: reference_grade,
         finer: all.finer,
         mutants,
+        corners: all.corners,
     };
     audit_rubric(&mut audit, reference, (lab, own), brief.as_deref(), &graded)?;
     if args.quick {
@@ -222,9 +224,11 @@ fn audit_other_starters(
 struct Graded {
     starter: Option<Grade>,
     zeros: Option<Grade>,
+    played_back: Option<Grade>,
     reference: Option<Grade>,
     finer: Option<Grade>,
     mutants: Vec<Grade>,
+    corners: Option<Variants>,
 }
 
 /// Looks at the rubric itself.
@@ -246,10 +250,12 @@ fn audit_rubric(
         brief,
         starter: graded.starter.as_ref(),
         zeros: graded.zeros.as_ref(),
+        played_back: graded.played_back.as_ref(),
         reference: graded.reference.as_ref(),
         finer: graded.finer.as_ref(),
         mutants: &graded.mutants,
         margins: &margins,
+        corners: graded.corners.as_ref(),
     };
     audit.rubric(&rubric, &Accepted::load(reference, lab)?);
     Ok(())

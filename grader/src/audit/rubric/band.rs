@@ -3,16 +3,19 @@
 use kinemark_sim::kinematics::workspace::sample_workspace;
 use nalgebra::Vector3;
 
-use super::{Doubt, Rubric};
-use crate::audit::variants::is_thin;
+use super::{Doubt, Rubric, typed};
+use crate::audit::variants::{NOT_SPENT, is_thin};
 use crate::lab::{Lab, Task, TaskWork};
-use crate::record::quantity::with_unit;
+use crate::record::grade::Measure;
+use crate::record::quantity::{with_unit, with_unit_unlike};
 use crate::task::model::{Band, MotionTask};
 
 /// A distance of this share of the workspace is no precision any more.
 const SHARE_OF_REACH: f64 = 0.25;
 /// The same of an angle \[rad\]: an eighth of a turn.
 const WIDE_RAD: f64 = std::f64::consts::FRAC_PI_4;
+/// A task may use at least so many times the operations of the reference solution.
+const LEAST_BUDGET: u64 = 2;
 /// Points of the workspace.
 const SAMPLES: usize = 2000;
 
@@ -53,30 +56,23 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
 /// The joints that checks name in lab.toml.
 struct TypedJoints<'a> {
     lab: &'a Lab,
-    table: Option<toml::Table>,
+    table: toml::Table,
 }
 
 impl<'a> TypedJoints<'a> {
     fn of(lab: &'a Lab) -> Self {
-        let table = lab.source.text().parse().ok();
+        let table = typed::table(lab).unwrap_or_default();
         Self { lab, table }
     }
 
     /// The entry of the joint that a check reads, if it reads one.
     fn joint(&self, task: &Task, check: &str) -> Option<usize> {
-        let typed = table_named(self.table.as_ref()?.get("tasks")?, &task.name)?;
-        let typed = table_named(typed.get("checks")?, check)?.as_table()?;
-        let mut kinds = typed.values().filter_map(toml::Value::as_table);
-        let name = kinds.find_map(|kind| kind.get("joint")?.as_str())?;
+        let typed = typed::named(&self.table, "tasks", &task.name)?;
+        let (_, kind) = typed::kind(typed::named(typed, "checks", check)?)?;
+        let name = kind.get("joint")?.as_str()?;
         let mut joints = self.lab.of_task(task).robot.moving_joints();
         joints.position(|joint| joint.name == name)
     }
-}
-
-/// The table with this `name` in a list of tables.
-fn table_named<'v>(list: &'v toml::Value, name: &str) -> Option<&'v toml::Value> {
-    let mut tables = list.as_array()?.iter();
-    tables.find(|table| table.get("name").and_then(toml::Value::as_str) == Some(name))
 }
 
 /// A band that depends on the reference solution, with what that reaches.
@@ -159,6 +155,68 @@ fn doubt(
         ),
         help: "narrow the band: `full` is the worst that still earns everything".to_owned(),
     })
+}
+
+/// Whether a time is fewer than two control periods from losing points: who commands a period later loses some. What is well below the
+/// end of full points is as it should be.
+fn is_within_periods(motion: &MotionTask, measure: &Measure) -> bool {
+    let room_s = measure.value.map(|value| measure.full - value);
+    measure.unit == "s"
+        && measure.full < measure.zero
+        && room_s.is_some_and(|room_s| {
+            (0.0..2.0 * motion.periods.control_s()).contains(&room_s)
+                && room_s < (1.0 - NOT_SPENT) * measure.full
+        })
+}
+
+/// Times in which the reference solution has less room than two control periods.
+pub(super) fn periods(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    for (task, grade) in rubric.graded_tasks() {
+        let TaskWork::Motion(motion, _) = &task.work else {
+            continue;
+        };
+        for check in &grade.checks {
+            let of = format!("{}/{}", task.name, check.name);
+            let is_known = doubts.iter().any(|doubt| doubt.of == of);
+            let measure = check.measure.as_ref();
+            let measure = measure.filter(|measure| is_within_periods(motion, measure));
+            if let Some((value, full)) = measure
+                .filter(|_| !is_known)
+                .and_then(|measure| Some((measure.value?, measure.full)))
+            {
+                doubts.push(Doubt {
+                    rule: "margin",
+                    of,
+                    what: format!(
+                        "the reference solution takes {}, and all points are earned up to {}: less than two control periods of {} s are between \
+                         them",
+                        with_unit_unlike(value, full, "s"),
+                        with_unit_unlike(full, value, "s"),
+                        motion.periods.control_s()
+                    ),
+                    help: "widen the band: who commands one period later loses points".to_owned(),
+                });
+            }
+        }
+    }
+}
+
+/// Tasks in which the reference solution uses most of what a task may use.
+pub(super) fn budgets(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    for (task, grade) in rubric.graded_tasks() {
+        let allowed = rubric.lab.of_task(task).budgets.operations_per_task;
+        if grade.operations.saturating_mul(LEAST_BUDGET) > allowed {
+            doubts.push(Doubt {
+                rule: "margin",
+                of: format!("{}/budgets", task.name),
+                what: format!(
+                    "the reference solution uses {} of the {allowed} operations of a task: who solves it otherwise may be stopped",
+                    grade.operations
+                ),
+                help: "raise `operations_per_task` in [budgets], or mend the solution".to_owned(),
+            });
+        }
+    }
 }
 
 /// Bands in which the reference solution has hardly any room, in its own numbers or in some variant.

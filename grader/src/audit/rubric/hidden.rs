@@ -114,6 +114,35 @@ fn of_runs(lab: &Lab, staff: &Staff, task: &Task, doubts: &mut Vec<Doubt>) {
     }
 }
 
+/// Hidden runs in which the commands of the visible run earn everything.
+pub(super) fn played_back(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let tasks = rubric
+        .played_back
+        .into_iter()
+        .flat_map(|grade| &grade.tasks);
+    for task in tasks {
+        let fooled = task.hidden.iter().filter(|class| class.good == class.total);
+        for class in fooled {
+            let of = format!("{}/{}", task.name, class.class);
+            let runs = match class.total {
+                1 => "its run".to_owned(),
+                total => format!("all {total} of its runs"),
+            };
+            if doubts.iter().any(|doubt| doubt.of == of) {
+                continue;
+            }
+            doubts.push(Doubt {
+                rule: "hidden",
+                of,
+                what: format!(
+                    "a submission that plays back the commands of the visible run has full marks in {runs}: they ask for the same motion"
+                ),
+                help: "draw numbers that change the motion, from wider ranges".to_owned(),
+            });
+        }
+    }
+}
+
 /// Whether cases such as this one can be drawn: there are ranges of numbers and lists.
 fn can_be_drawn(case: &Case) -> bool {
     match &case.given {

@@ -5,12 +5,16 @@
 //! | `band` | bands in which nobody can lose, and margins that are too narrow |
 //! | `reach` | cases, goals and paths that the robot cannot reach, or only where it is singular; branches that are counted wrongly |
 //! | `unused` | parameters, variants, paths, sensors and frames that nothing uses |
+//! | `goals` | goals that are nearer to each other than their band, stays of a moment, targets that are not the path |
+//! | `far_draws` | hidden numbers of another size than the visible ones |
 //! | `hidden` | hidden cases and runs that are the visible ones, or leave the limits of joints; a salt that is short or known |
 //! | `settings` | a robot without a TCP, gains where they do nothing, a target that differs from the servo |
 //! | `variants` | parameters that stand outside of what students draw |
+//! | `corners` | ends of what students draw at which the reference solution loses points |
 //! | `accuracy` | bands that are thinner than what the simulation is accurate to |
 //! | `brief` | what is graded and not mentioned |
 //! | `words` | words and numbers of the brief and of checks that differ from what is graded |
+//! | `times` | times of runs and calls that the brief says, and lab.toml does not |
 //! | `names` | names in texts that nothing has, and what still says TODO |
 //! | `twice` | cases, checks, tasks and mutants that are there twice |
 //! | `lost` | checks that nobody loses, and checks that are earned for nothing |
@@ -21,12 +25,17 @@ mod accepted;
 mod accuracy;
 mod band;
 mod brief;
+mod corners;
+mod far_draws;
+mod goals;
 mod hidden;
 mod lost;
 mod names;
 mod reach;
 mod settings;
+mod times;
 mod twice;
+mod typed;
 mod unused;
 mod variants;
 mod words;
@@ -38,9 +47,9 @@ pub(super) use self::accepted::{CHOICE, MUTATION};
 use self::lost::Losses;
 pub use self::lost::zeros;
 use super::mutate::{Mutation, MutationProblem, mutations, no_mutation};
-use super::{Audit, Problem, Tried, VariantMargin};
-use crate::lab::{Lab, Staff};
-use crate::record::grade::Grade;
+use super::{Audit, Problem, Tried, VariantMargin, Variants};
+use crate::lab::{Lab, Staff, Task};
+use crate::record::grade::{Grade, TaskGrade};
 
 /// What is probably wrong.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -72,6 +81,8 @@ pub struct Rubric<'a> {
     pub starter: Option<&'a Grade>,
     /// The grade of a submission that answers zeros.
     pub zeros: Option<&'a Grade>,
+    /// The grade of a submission that plays back what the reference solution commands in visible runs, in the motion tasks.
+    pub played_back: Option<&'a Grade>,
     /// The grade of the reference solution.
     pub reference: Option<&'a Grade>,
     /// The grade of the reference solution with half the physics step, in visible cases and runs.
@@ -80,6 +91,8 @@ pub struct Rubric<'a> {
     pub mutants: &'a [Grade],
     /// The margins of the reference solution over the variants that were tried.
     pub margins: &'a [VariantMargin],
+    /// What the reference solution does at the ends of what students draw.
+    pub corners: Option<&'a Variants>,
 }
 
 /// A rule: its name, what it makes sure of, and what it finds.
@@ -96,6 +109,11 @@ const RULES: &[Rule] = &[
         "variants",
         "the lab's own numbers are one student's variant",
         variants::rule,
+    ),
+    (
+        "corners",
+        "the reference has full marks at the ends of what students draw",
+        corners::rule,
     ),
     (
         "unused",
@@ -123,13 +141,29 @@ const RULES: &[Rule] = &[
         twice::rule,
     ),
     (
+        "goals",
+        "goals are apart, and what is to stay stays",
+        goals::rule,
+    ),
+    (
         "hidden",
         "what is hidden differs from what is visible",
-        hidden::rule,
+        |rubric, doubts| {
+            hidden::rule(rubric, doubts);
+            far_draws::rule(rubric, doubts);
+            hidden::played_back(rubric, doubts);
+        },
     ),
     ("salt", "nobody can guess it", hidden::salt),
     ("brief", "mentions what is graded", brief::rule),
-    ("words", "words and numbers say what is graded", words::rule),
+    (
+        "words",
+        "words and numbers say what is graded",
+        |rubric, doubts| {
+            words::rule(rubric, doubts);
+            times::rule(rubric, doubts);
+        },
+    ),
     (
         "names",
         "what is mentioned is there, and nothing says TODO",
@@ -139,7 +173,11 @@ const RULES: &[Rule] = &[
     (
         "margin",
         "the reference has room in every band",
-        band::margins,
+        |rubric, doubts| {
+            band::margins(rubric, doubts);
+            band::periods(rubric, doubts);
+            band::budgets(rubric, doubts);
+        },
     ),
     (
         "accuracy",
@@ -153,6 +191,16 @@ const RULES: &[Rule] = &[
 impl Rubric<'_> {
     fn losses(&self) -> Losses<'_> {
         Losses::of(self)
+    }
+
+    /// The tasks in which the reference solution was graded.
+    fn graded_tasks(&self) -> impl Iterator<Item = (&Task, &TaskGrade)> {
+        let of = |grade: &TaskGrade| {
+            let mut tasks = self.lab.tasks.iter();
+            tasks.find(|task| task.name == grade.name)
+        };
+        let grades = self.reference.into_iter().flat_map(|grade| &grade.tasks);
+        grades.filter_map(move |grade| Some((of(grade)?, grade)))
     }
 }
 

@@ -3,6 +3,7 @@
 use toml::{Table, Value as Toml};
 
 use super::hidden::is_same;
+use super::typed::{self, name, tables};
 use super::{Doubt, Rubric};
 use crate::lab::TaskWork;
 
@@ -10,7 +11,7 @@ use crate::lab::TaskWork;
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     cases(rubric, doubts);
     mutants(rubric, doubts);
-    if let Ok(table) = rubric.lab.source.text().parse::<Table>() {
+    if let Some(table) = typed::table(rubric.lab) {
         let tasks = tables(&table, "tasks");
         checks(&tasks, doubts);
         functions(&tasks, doubts);
@@ -116,15 +117,4 @@ fn functions(tasks: &[&Table], doubts: &mut Vec<Doubt>) {
             ));
         }
     }
-}
-
-/// The tables of a list.
-fn tables<'t>(table: &'t Table, list: &str) -> Vec<&'t Table> {
-    let items = table.get(list).and_then(Toml::as_array);
-    let items = items.into_iter().flatten();
-    items.filter_map(Toml::as_table).collect()
-}
-
-fn name(table: &Table) -> &str {
-    table.get("name").and_then(Toml::as_str).unwrap_or_default()
 }

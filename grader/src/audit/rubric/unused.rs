@@ -2,20 +2,16 @@
 
 use toml::Value;
 
-use super::{Doubt, Rubric};
+use super::{Doubt, Rubric, typed};
 use crate::lab::{Lab, Task, TaskWork};
 use crate::task::value::Value as Target;
 
 /// Whether a task has an expression that names a parameter.
 pub(super) fn uses_parameters(lab: &Lab, task: &Task) -> bool {
-    let table = lab.source.text().parse::<toml::Table>().ok();
-    let tasks = table
-        .as_ref()
-        .and_then(|table| table.get("tasks")?.as_array());
-    let mut tasks = tasks.into_iter().flatten();
-    let is_it = |typed: &&Value| typed.get("name").and_then(Value::as_str) == Some(&task.name);
+    let table = typed::table(lab).unwrap_or_default();
+    let task = typed::named(&table, "tasks", &task.name);
     let mut expressions = Vec::new();
-    if let Some(motion) = tasks.find(is_it).and_then(|typed| typed.get("motion")) {
+    if let Some(motion) = task.and_then(|typed| typed.get("motion")) {
         texts(motion, &mut expressions);
     }
     let expressions = expressions.iter().filter_map(|text| text.strip_prefix('='));
@@ -26,7 +22,7 @@ pub(super) fn uses_parameters(lab: &Lab, task: &Task) -> bool {
 /// Parameters that no expression of the lab names, and paths that no check does.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     let lab = rubric.lab;
-    let Ok(table) = lab.source.text().parse::<toml::Table>() else {
+    let Some(table) = typed::table(lab) else {
         return;
     };
     let mut expressions = Vec::new();
@@ -80,7 +76,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
 /// Sensors that a task adds, which no check names and the solution does not read.
 pub(super) fn sensors(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     let lab = rubric.lab;
-    let Ok(table) = lab.source.text().parse::<toml::Table>() else {
+    let Some(table) = typed::table(lab) else {
         return;
     };
     let tasks = table.get("tasks").and_then(Value::as_array);
@@ -115,10 +111,8 @@ pub(super) fn frames(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     let lab = rubric.lab;
     let robot = lab.robot_file.source();
     // a URDF has a frame for each link
-    let (Ok(table), Ok(of_robot)) = (
-        lab.source.text().parse::<toml::Table>(),
-        robot.text().parse::<toml::Table>(),
-    ) else {
+    let (Some(table), Ok(of_robot)) = (typed::table(lab), robot.text().parse::<toml::Table>())
+    else {
         return;
     };
     let mut named = vec!["tcp", "lab", &lab.frame];

@@ -1,12 +1,12 @@
 //! Numbers of lab.toml that no student's variant has, and variants that do not vary.
 
-use toml::{Table, Value as Toml};
+use toml::Value as Toml;
 
-use super::{Doubt, Rubric};
+use super::{Doubt, Rubric, typed};
 
 /// What `[variants]` says of parameters that do not vary.
 fn of_nothing(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
-    let Ok(table) = rubric.lab.source.text().parse::<Table>() else {
+    let Some(table) = typed::table(rubric.lab) else {
         return;
     };
     let variants = table.get("variants").and_then(Toml::as_table);

@@ -3,7 +3,7 @@
 use kinemark_sim::text::Dimension;
 use toml::{Table, Value as Toml};
 
-use super::{Doubt, Rubric};
+use super::{Doubt, Rubric, typed};
 use crate::lab::{Lab, Task, TaskWork};
 use crate::record::quantity::points;
 use crate::task::value::Value;
@@ -17,7 +17,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         of_variants(rubric.lab, brief, doubts);
         of_comments(rubric.lab, brief, doubts);
     }
-    let Ok(table) = rubric.lab.source.text().parse::<Table>() else {
+    let Some(table) = typed::table(rubric.lab) else {
         return;
     };
     let typed = table.get("tasks").and_then(Toml::as_array);

@@ -27,7 +27,8 @@ use super::hints::with_questions_alone;
 use super::model::{Lab, OwnRobot, Task, TaskWork};
 use super::parameters::{self, NumbersTable};
 use super::practice::Practice;
-use super::variant::{self, Variant};
+use super::variant::Variant;
+use super::variant_rule::rules;
 use crate::submission::controller::Budgets;
 use crate::task::files::{Files, read_source};
 use crate::task::mesh_file::MeshFile;
@@ -176,7 +177,7 @@ impl Lab {
         let budgets = budgets.unwrap_or_default();
         let kept = kept_after_stop(report, lab.kept_after_stop.as_ref());
         let kept_after_stop = mistakes.keep(kept).unwrap_or(KEPT_AFTER_STOP);
-        let variants = variant::rules(report, &lab.variants, &stated);
+        let variants = rules(report, &lab.variants, &stated);
         let variants = mistakes.keep(variants).unwrap_or_default();
         mistakes.finish()?;
         let mut loaded = Self {

@@ -61,6 +61,15 @@ pub(super) struct Chain {
 
 pub(super) fn head<'a>(reader: &Reader<'_>, node: Node<'a>) -> Result<Head<'a>, RobotError> {
     let name = reader.required(node, "name", "a joint")?;
+    let tag = node.tag_name().name();
+    if tag != "joint" {
+        return reader.refuse(
+            Reader::tag(node),
+            format!("unknown element `<{tag}>`"),
+            "it leads from one link to another",
+            "did you mean `<joint>`?",
+        );
+    }
     let owner = format!("joint `{}`", name.get_ref());
     let word = reader.required(node, "type", &owner)?;
     let Some(&(_, kind)) = TYPES.iter().find(|(known, _)| known == word.get_ref()) else {

@@ -162,6 +162,12 @@ fn parts<'a>(reader: &mut Reader<'_>, robot: Node<'a>) -> (Vec<Node<'a>>, Vec<No
                 if let Some(near) = nearest(other, ["link", "joint"].into_iter())
                     && node.has_attribute("name")
                 {
+                    // what leads from a link to a link is nothing else
+                    let has = |name: &str| elements(node).any(|n| n.tag_name().name() == name);
+                    if near == "joint" && has("parent") && has("child") {
+                        joints.push(node);
+                        continue;
+                    }
                     let message = format!(
                         "unknown element `<{other}>` is left out: did you mean `<{near}>`?"
                     );
