@@ -374,7 +374,7 @@ times=()
 run_steps() { # NAME...: `a-b` is step_a_b
   local name began
   for name in "$@"; do
-    declare -F "step_${name//-/_}" >/dev/null || { echo "there is no step \`$name\`; there are: ${all[*]}"; exit 2; }
+    declare -F "step_${name//-/_}" >/dev/null || { echo "there is no step \`$name\`; there are: ${all[*]} ${before_a_release[*]:-}"; exit 2; }
   done
   for name in "$@"; do
     printf '\n== %s\n' "$name"

@@ -112,6 +112,7 @@ fn each_slip_is_answered_with_what_to_write() {
             ("pose-reached = { full_m = 0.01, zero_m = 0.05 }", "", "lab::check_kind", "such as `pose-reached = {"),
             ("\"forward_kinematics\"", "\"fk\"", "lab::call", "did you mean `forward_kinematics`?"),
             ("robot = \"rrbot\"", "robot = \"rrbot.toml\"", "lab::unknown_robot", "leave out `.toml`"),
+            ("robot = \"rrbot\"", "robot = \"RzTq\"", "lab::unknown_robot", "`q` is no axis"),
             ("\"= pick\"", "[\"= sine(pick[0])\", 1.0, 0.05]", "lab::expression", "did you mean `sin`?"),
             ("\"= pick\"", "\"= pick + 1\"", "lab::expression", "`pick` is a list and needs an index"),
             ("[parameters]", "[budgets]\nkept_after_stop = 0.5\n\n[parameters]", "lab::toml", "keys of the lab come before the first table"),

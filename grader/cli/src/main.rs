@@ -3,7 +3,7 @@
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-use clap::Parser as _;
+use clap::{CommandFactory as _, Parser as _};
 use kinemark_report::visible::visible;
 
 use crate::error_record::ErrorRecord;
@@ -60,6 +60,7 @@ mod slurm_script;
 mod staff_folder;
 mod typed_numbers;
 mod typed_path;
+mod typed_refusal;
 mod typed_words;
 mod unfinished;
 mod unfolded_hints;
@@ -90,6 +91,7 @@ fn main() -> ExitCode {
             };
             // a closed pipe is no reason to fail
             let error = as_shown(&words, error);
+            let error = typed_refusal::in_plain_words(error, &command_line::CommandLine::command());
             let _ = error.print();
             if error.use_stderr() {
                 failure::print_record(ErrorRecord::of_typed(&error));

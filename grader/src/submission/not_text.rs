@@ -5,12 +5,13 @@ use super::controller::{Controller, Failed, Mistake, Opening, SourcePosition, St
 use super::host::Host;
 
 /// Files that are handed in instead of a submission, by their first bytes.
-const OTHERS: [(&[u8], &str, &str); 13] = [
+const OTHERS: [(&[u8], &str, &str); 14] = [
     (b"PK\x03\x04", "a ZIP archive", SCRIPT),
     (b"Rar!", "a RAR archive", SCRIPT),
     (b"7z\xbc\xaf\x27\x1c", "a 7z archive", SCRIPT),
     (b"\x1f\x8b", "a gzip archive", SCRIPT),
     (b"%PDF", "a PDF", SCRIPT),
+    (b"{\\rtf", "a document in RTF", SCRIPT),
     (b"\xff\xfe", "text in UTF-16", SCRIPT),
     (b"\xfe\xff", "text in UTF-16", SCRIPT),
     (b"\x7fELF", "a program for Linux", MODULE),
@@ -44,6 +45,24 @@ fn to_be_built(text: &str) -> Option<(&'static str, SourcePosition)> {
         let column = text.chars().count() - written.chars().count() + 1;
         Some((language, SourcePosition { line, column }))
     })
+}
+
+/// A text that holds a program and is none, and what to hand in instead.
+fn wrapped(text: &str) -> Option<(&'static str, &'static str)> {
+    let begin = text.trim_start().get(..14).unwrap_or_default();
+    let begin = begin.to_ascii_lowercase();
+    if begin.starts_with("<!doctype html") || begin.starts_with("<html") {
+        return Some((
+            "a web page",
+            "hand in the file itself: the page that shows it was saved in its place",
+        ));
+    }
+    let is_notebook =
+        begin.starts_with('{') && text.contains("\"cells\"") && text.contains("\"nbformat\"");
+    is_notebook.then_some((
+        "a Jupyter notebook",
+        "save its code as a script (in Jupyter: File, Save and Export Notebook As, Executable Script), and hand in that",
+    ))
 }
 
 /// How bytes begin that stand for a submission that is not there; no script begins so.
@@ -85,6 +104,17 @@ impl NotText {
         let other = others
             .find(|(first, ..)| bytes.starts_with(first) && (first.len() > 2 || is_text.is_err()));
         let valid = match is_text {
+            Ok(text) if let Some((what, help)) = wrapped(text) => {
+                return Some(Self {
+                    shown: text.to_owned(),
+                    mistake: Mistake {
+                        message: format!("the file is {what}, not a submission"),
+                        place: None,
+                        help: Some(help.to_owned()),
+                        further: Vec::new(),
+                    },
+                });
+            }
             Ok(text) if other.is_none() => {
                 let (language, place) = to_be_built(text)?;
                 return Some(Self {
@@ -169,7 +199,13 @@ mod tests {
     fn source_code_has_the_place_that_shows_its_language() {
         let c = NotText::of(b"// mine\n  #include \"kinemark.h\"\n").expect("no script");
         assert_eq!(c.mistake.place, Some(SourcePosition { line: 2, column: 3 }));
-        for script in ["MZ(1);", "let use_kinemark_plugin = 1; // #include", "#{}"] {
+        for script in [
+            "{ let cells = 1; }",
+            "let a = \"<html>\";",
+            "MZ(1);",
+            "let use_kinemark_plugin = 1; // #include",
+            "#{}",
+        ] {
             assert_eq!(NotText::of(script.as_bytes()), None);
         }
     }
@@ -184,6 +220,12 @@ mod tests {
             (b"(module (memory 1))", "text form"),
             (b"// mine\n  #include \"kinemark.h\"\n", "in C"),
             (b"use kinemark_plugin::*;\n", "in Rust"),
+            (b"\n<!DOCTYPE html>\n<pre>fn control</pre>", "a web page"),
+            (
+                b"{\n \"cells\": [],\n \"nbformat\": 4\n}",
+                "a Jupyter notebook",
+            ),
+            (b"{\\rtf1\\ansi fn control", "in RTF"),
             (b"\xff\xfel\0e\0t\0", "UTF-16"),
         ] {
             let found = NotText::of(bytes).expect("no script");

@@ -17,6 +17,7 @@ mod target;
 use std::ops::Range;
 use std::sync::Arc;
 
+use kinemark_sim::format::joint_string::looks_like_one;
 use kinemark_sim::format::{ReadOptions, RobotDescription};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::model::unphysical::OnUnphysical;
@@ -47,6 +48,9 @@ problems! {
         NotOfFolder { name: String, folder: String }:
             "lab::name", "the lab in folder `{folder}` calls itself `{name}`", "differs from its folder",
             format!("write `name = \"{folder}\"`, or rename the folder");
+        NoRow { name: String, why: String, known: Vec<String> }:
+            "lab::unknown_robot", "robot `{name}` is neither a file in robots/ nor a row of joints: {why}", "this robot",
+            near(name, "robots", known);
         UnknownRobot { path: String, name: String, known: Vec<String> }:
             "lab::unknown_robot", "no robot file `{path}`", "no such robot",
             match name.strip_suffix(".toml") {
@@ -253,7 +257,19 @@ fn robot_called(
     options: &RobotOptions,
 ) -> Result<LabRobot, LoadError> {
     let name = typed.get_ref();
-    let Some(robot) = LabRobot::named(files, name, options)? else {
+    let named = LabRobot::named(files, name, options);
+    if let Err(why) = &named
+        && looks_like_one(name)
+        && !robot_names(files).contains(name)
+    {
+        let problem = LabFileProblem::NoRow {
+            name: name.clone(),
+            why: why.to_string(),
+            known: robot_names(files),
+        };
+        return Ok(report.refuse_at(typed, problem)?);
+    }
+    let Some(robot) = named? else {
         let problem = LabFileProblem::UnknownRobot {
             path: robot_path(name),
             name: name.clone(),

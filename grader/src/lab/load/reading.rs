@@ -82,7 +82,10 @@ impl Reporter<'_> {
         } else {
             "`kinemark lab fill LAB` writes this file anew".to_owned()
         };
-        let refusal = message.replace("unknown field", "unknown key");
+        let refusal = match message.starts_with("EOF while") {
+            true => "the file ends in the middle".to_owned(),
+            false => message.replace("unknown field", "unknown key"),
+        };
         let at = at..(at + 1).min(text.len());
         self.refuse(at, TextProblem::Json { refusal, help })
     }
