@@ -77,6 +77,24 @@ fn control(observation) {
 }
 ";
 
+/// A task before the first, with an entry that a quantity of the robot has not.
+const GRAVITY: &str = "[[tasks]]
+name = \"gravity\"
+title = \"Gravity\"
+
+[tasks.function]
+call = \"gravity\"
+cases = [{ name = \"bent\", q_rad = [0.7, -1.1] }]
+
+[[tasks.checks]]
+name = \"shoulder\"
+title = \"The torque of the shoulder\"
+points = 1.0
+function-cases = { full = 0.01, zero = 0.1, entry = \"shoulder\" }
+
+[[tasks]]
+name = \"fk\"";
+
 fn own_lab() -> OwnLab {
     OwnLab::new("95-slips", LAB)
 }
@@ -112,6 +130,7 @@ fn each_slip_is_answered_with_what_to_write() {
             ("pose-reached = { full_m = 0.01, zero_m = 0.05 }", "", "lab::check_kind", "such as `pose-reached = {"),
             ("\"forward_kinematics\"", "\"fk\"", "lab::call", "did you mean `forward_kinematics`?"),
             ("robot = \"rrbot\"", "robot = \"rrbot.toml\"", "lab::unknown_robot", "leave out `.toml`"),
+            ("[[tasks]]\nname = \"fk\"", GRAVITY, "lab::unknown_entry", "the answer of `gravity` has no entries with names"),
             ("robot = \"rrbot\"", "robot = \"RzTq\"", "lab::unknown_robot", "`q` is no axis"),
             ("\"= pick\"", "[\"= sine(pick[0])\", 1.0, 0.05]", "lab::expression", "did you mean `sin`?"),
             ("\"= pick\"", "\"= pick + 1\"", "lab::expression", "`pick` is a list and needs an index"),

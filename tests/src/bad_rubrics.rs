@@ -575,6 +575,43 @@ fn every_fault_is_found_with_its_place_and_numbers() {
             "cases",
             "again: it calls the function of task `fk` with the same cases",
         ),
+        (
+            "lab.toml",
+            "title = \"In time\"",
+            "title = \"There\"",
+            "cases",
+            "touch/time: it has the title of check `pose`",
+        ),
+        (
+            "lab.toml",
+            "gravity_compensation = true, effort_limit = 100.0 }",
+            "gravity_compensation = true, effort_limit = [100.0, 200.0] }",
+            "settings",
+            "touch/servo: `effort_limit` gives joint `elbow` 200, and the robot's own limit is 100",
+        ),
+        (
+            "lab.toml",
+            "ik-reach = { full_m = 1e-3, zero_m = 1e-2 }\n",
+            "ik-reach = { full_m = 1e-3, zero_m = 1e-2 }\n\n[[tasks.checks]]\nname = \"both\"\ntitle = \"Both branches\"\n\
+             points = 1.0\nik-branches = { full_m = 0.1, zero_m = 1.0 }\n",
+            "band",
+            "ik/both: a branch may be 0.1 m off, and `ik/reach` gives all points up to 0.001 m",
+        ),
+        (
+            "lab.toml",
+            "path-deviation = { path = \"line\", full_m = 0.008, zero_m = 0.03 }",
+            "path-coverage = { path = \"line\", within_m = 0.02, full = 0.3, zero = 0.1 }",
+            "band",
+            "touch/line: all points for 0.3 of the path",
+        ),
+        (
+            "lab.toml",
+            "path-deviation = { path = \"line\", full_m = 0.008, zero_m = 0.03 }",
+            "path-deviation = { path = \"line\", full_m = 0.008, zero_m = 0.03 }\n\n[[tasks.checks]]\nname = \"whole\"\n\
+             title = \"The whole line\"\npoints = 1.0\npath-coverage = { path = \"line\", within_m = 0.2, full = 0.9, zero = 0.1 }",
+            "band",
+            "touch/whole: what is within 0.2 m of the path counts, and at 0.03 m nothing is earned",
+        ),
     ];
     let faults: Vec<_> = faults
         .iter()
@@ -655,6 +692,47 @@ fn words_of_the_brief_are_held_to_what_is_graded() {
             ),
         }
     }
+}
+
+#[test]
+fn what_the_brief_calls_by_another_name_or_number_is_doubted() {
+    let goals_alone = own_lab().with("lab.toml", "target = { effort_n_m = 2.0 }\n", "");
+    let texts = [
+        (
+            own_lab(),
+            format!("{BRIEF}Read `observation.torque`.\n"),
+            "names",
+            "brief: it mentions `observation.torque`, which there is not",
+        ),
+        (
+            goals_alone,
+            BRIEF.replace("effort_n_m", "right"),
+            "names",
+            "brief: it mentions `observation.target.right`, and the target is the list of goals",
+        ),
+        (
+            own_lab(),
+            format!("{BRIEF}The servo has kp = 500 and kd = 30.\n"),
+            "brief",
+            "touch/kp: the servo has kp = 1000, and the brief, which speaks of `kp`, has no such number",
+        ),
+        (
+            own_lab(),
+            format!("# Lab 7: gardening\n\n{BRIEF}"),
+            "words",
+            "title: the lab is called \"A rubric without faults\", and the brief begins with \"Lab 7: gardening\"",
+        ),
+    ];
+    for (own, brief, rule, words) in texts {
+        let found = problems(&rows(&own, &brief, &Accepted::default()));
+        let hit = |(name, problem): &(String, String)| name == rule && problem.starts_with(words);
+        assert!(found.iter().any(hit), "{words}: {found:#?}");
+    }
+    let right = format!(
+        "# Rubric\n\n{BRIEF}The servo has kp = 1000 and kd = 30. `observation.tcp_rotation` and `observation.target[0]`.\n"
+    );
+    let found = problems(&rows(&own_lab(), &right, &Accepted::default()));
+    assert_eq!(found, []);
 }
 
 #[test]
@@ -970,6 +1048,44 @@ fn hidden_runs_in_which_played_back_commands_are_right_are_found() {
         found.len() == 1 && found[0].starts_with(words),
         "{found:#?}"
     );
+}
+
+/// A check that needs what the reference solution reaches cannot judge anybody where that stops.
+#[test]
+fn a_solution_that_stops_in_a_hidden_run_is_said_with_its_numbers_and_its_line() {
+    let own = motion_lab()
+        .with(
+            "lab.toml",
+            "[[tasks]]\nname = \"lever\"",
+            "[[tasks.checks]]\nname = \"time\"\ntitle = \"In time\"\npoints = 1.0\n\
+             settling-time = { joint = \"shoulder\", full_s = \"= reference + 0.5\", zero_s = \"= reference + 1.0\" }\n\n\
+             [[tasks]]\nname = \"lever\"",
+        )
+        .with("hidden.toml", "out = [0.45, 0.55]", "out = [0.41, 0.45]")
+        .with(
+            "solution.rhai",
+            "if goal[0] > 0.5995 { return [0.0, 0.0]; }",
+            "if goal[0] < 0.46 { throw \"out of reach\"; }",
+        );
+    let lab = own.lab();
+    let staff = staff_of(&own, &lab);
+    let found = Form::new(&lab, &staff).reference("");
+    let problems: Vec<&str> = found
+        .rows
+        .iter()
+        .filter_map(|row| row.problem.as_deref())
+        .collect();
+    let [problem] = &problems[..] else {
+        panic!("{problems:#?}");
+    };
+    for words in [
+        "task `go`: in hidden run 1 of the class \"elsewhere\" (out = 0.4",
+        "the reference solution stops at 0 s: ",
+        "out of reach",
+        "solution.rhai:4:",
+    ] {
+        assert!(problem.contains(words), "{words}: {problem}");
+    }
 }
 
 #[test]

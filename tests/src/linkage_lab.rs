@@ -65,6 +65,25 @@ fn a_linkage_starts_closed_where_its_file_has_it() {
 }
 
 #[test]
+fn a_start_of_the_independent_joints_closes_the_loops() {
+    let whole = lab();
+    let driven = lab();
+    driven.edit("start_rad = [0, 1.319, -0.0421]", "start_rad = [0.0]");
+    let speeds = [&whole, &driven].map(|lab| value(&lab.graded(HOLDS, 0), "calm"));
+    assert!(speeds.iter().all(|speed| *speed < 0.2), "{speeds:?} rad/s");
+    let start = "start_rad = [0, 1.319, -0.0421]";
+    lab().is_refused(
+        HOLDS,
+        &[(
+            start,
+            "start_rad = [0.0, 1.319]",
+            "lab::joint_count",
+            "joints of `fourbar`: a, b, c",
+        )],
+    );
+}
+
+#[test]
 fn a_start_with_an_open_loop_is_refused_with_the_start_that_closes_it() {
     // with all joints at zero the rod ends 0.5 m from where the rocker does
     let open = "a loop of robot `fourbar` is open by 0.5000 m";

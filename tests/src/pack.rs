@@ -89,6 +89,25 @@ fn a_pack_for_students_gives_nothing_away_and_grades_as_at_home() {
     }
 }
 
+/// No robot has a file there: nothing but the lab says that the folder is one of labs.
+#[test]
+fn a_lab_of_a_row_of_joints_alone_is_found_and_handed_out() {
+    let bed = TestBed::new();
+    let new = ["lab", "new", "12-row", "--robot", "RzTxRy", "--task", "fk"];
+    let ran = bed.run(&new);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let ran = bed.run(&["lab", "check", "12-row", "--quick"]);
+    assert_eq!(ran.code, Some(1), "its TODOs alone: {ran:?}");
+    let ran = bed.run(&["lab", "pack", "12-row", "--for", "students"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let away = TestBed::new();
+    let archive = "12-row-students.zip";
+    std::fs::copy(bed.path(archive), away.path(archive)).expect("copied");
+    unpack(&away, archive, ".");
+    let ran = run_in(&away, "12-row", &["grade", "12-row", "submission.rhai"]);
+    assert_eq!(ran.code, Some(1), "the starter is graded: {ran:?}");
+}
+
 #[test]
 fn an_unpacked_pack_serves_every_command_of_a_student() {
     let bed = TestBed::new();

@@ -266,3 +266,82 @@ fn the_rule_that_failed_is_named() {
         }
     });
 }
+
+/// An arm with a wrist that turns on the spot, sent to one place with a heading.
+const HEADING: &str = r#"
+format = 1
+name = "95-heading"
+title = "A heading"
+robot = "RzRzRzTz"
+
+[dimensions]
+link1 = [0.4, 0.0, 0.0]
+link2 = [0.3, 0.0, 0.0]
+link3 = [0.0, 0.0, -0.1]
+link4 = [0.0, 0.0, -0.1]
+
+[[tasks]]
+name = "tour"
+title = "One place"
+
+[tasks.motion]
+mode = "velocity"
+duration_s = 4.0
+target = { q_rad = [0.6, 0.9, -0.5, 0.0] }
+# the place of these angles
+goals = [{ position_m = [0.3513554, 0.5251055, -0.2], rpy_deg = [0.0, 0.0, 57.2957795], dwell_s = 0.3 }]
+servo = { kp = [10.0, 4.0, 0.02, 20.0], gravity_compensation = true }
+
+[[tasks.checks]]
+name = "pose"
+title = "There"
+points = 2.0
+pose-reached = { full_m = 0.004, zero_m = 0.04 }
+
+[[tasks.checks]]
+name = "heading"
+title = "The heading"
+points = 2.0
+orientation-reached = { full_rad = 0.01, zero_rad = 0.2 }
+"#;
+
+#[test]
+fn a_mistake_of_the_heading_alone_is_named() {
+    let turned = |more: &str| {
+        format!(
+            "fn control(observation) {{ let q = observation.target.q_rad; q[2] += {more}; (q - observation.q) * 3 }}\n"
+        )
+    };
+    let solution = turned("0");
+    for (more, words) in [
+        ("0.3", None),
+        // it loses points, and hardly shows
+        (
+            "0.015",
+            Some("it is turned by 0.015 rad away, and 0.02 rad would count"),
+        ),
+    ] {
+        let own = OwnLab::new("95-heading", HEADING)
+            .and("hidden.toml", "format = 1\nsalt = \"a long one that nobody can guess\"\n")
+            .and("solution.rhai", solution.clone())
+            .and(
+                "mutants.toml",
+                "format = 1\n[[mutants]]\nname = \"turned\"\ntasks = [\"tour\"]\nsays = \"The heading is off.\"\n",
+            )
+            .and("mutants/turned.rhai", turned(more));
+        let lab = own.lab();
+        let staff = own.staff(&lab).expect("the course staff's part");
+        let mut audit = Audit::new(&lab);
+        assert!(audit.reference(&lab, &staff, "").is_some());
+        assert_eq!(audit.problems().count(), 0, "{:#?}", audit.rows);
+        let found = Form::new(&lab, &staff).mutant(0);
+        let problem = found.rows.iter().find_map(|row| row.problem.as_ref());
+        match words {
+            None => assert_eq!(problem, None),
+            Some(words) => assert!(
+                problem.is_some_and(|problem| problem.contains(words)),
+                "{words}: {problem:?}"
+            ),
+        }
+    }
+}

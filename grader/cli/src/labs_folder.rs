@@ -148,9 +148,16 @@ fn typed_folder(typed: &str) -> Option<Failure> {
     ))
 }
 
-/// Whether a folder is one of labs, which has a robots folder in it: another project's `labs` is none.
+/// Whether a folder is one of labs, which has a robots folder or the folder of a lab in it: another project's `labs` is none. Labs whose
+/// robots are rows of joints need no robots folder.
 pub(crate) fn is_labs(folder: &Path) -> bool {
-    folder.join("robots").is_dir()
+    let has_lab = || {
+        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+        entries
+            .map(|entry| entry.path().join("lab.toml"))
+            .any(|file| file.is_file())
+    };
+    folder.join("robots").is_dir() || has_lab()
 }
 
 /// A `labs` folder in `from` or above.

@@ -16,6 +16,7 @@ mod row;
 mod rubric;
 mod staff_code;
 mod starter;
+mod typed;
 mod unnamed;
 mod variants;
 

@@ -1,11 +1,12 @@
 //! The reference solution in one form of the lab: it has full marks, or each check in which it has not is a problem with its numbers.
 
 use kinemark_sim::text::Source;
+use kinemark_sim::text::number::seconds;
 
 use super::form::{Form, Found};
 use super::hidden_losses::{LostDraw, hidden_losses, lines_of};
 use super::row::{Problem, Row, Tried};
-use crate::judge::Examined;
+use crate::judge::{Examined, SolutionEnd, solution_end};
 use crate::lab::{Lab, Staff};
 use crate::record::grade::{CheckGrade, Evidence, Grade, HiddenClass, Outcome, Stopped, TaskGrade};
 use crate::record::verdict::Verdict;
@@ -46,6 +47,9 @@ impl Form<'_> {
 /// What is wrong where the reference solution does not pass `task`: how it was stopped, or a problem for each check that lost points.
 fn reference_problems(lab: &Lab, staff: &Staff, task: &TaskGrade) -> Vec<Problem> {
     let name = &task.name;
+    if let (Verdict::GraderFault, Some(end)) = (task.verdict, solution_end(lab, staff, name)) {
+        return vec![end_problem(staff, name, &end)];
+    }
     if task.stopped.is_some() {
         let help = "mend the solution: it runs, and has full marks";
         let problem = stop_problem(lab, staff, task, &staff.solution, help);
@@ -71,6 +75,27 @@ fn reference_problems(lab: &Lab, staff: &Staff, task: &TaskGrade) -> Vec<Problem
         }
     });
     problems.collect()
+}
+
+/// What is wrong where the reference solution stops in a run, so that nobody can be compared with it.
+fn end_problem(staff: &Staff, task: &str, end: &SolutionEnd) -> Problem {
+    let SolutionEnd { run, stopped } = end;
+    let at = stopped
+        .time_s
+        .map_or_else(String::new, |time_s| format!(" at {}", seconds(time_s)));
+    let place = place_of(stopped, &staff.solution);
+    let what = format!(
+        "task `{task}`: in {run} the reference solution stops{at}: {}{place}",
+        stopped.message
+    );
+    let help = stopped.help.clone().unwrap_or_else(|| {
+        "mend the solution, or the numbers of this run: a goal or a path may be out of reach with them".to_owned()
+    });
+    Problem {
+        key: format!("{task}: stops in a run"),
+        task: Some(task.to_owned()),
+        ..Problem::from((what, help))
+    }
 }
 
 /// What is wrong where the simulation of the reference solution's run in `task` is not accurate.

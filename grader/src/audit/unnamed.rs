@@ -3,10 +3,11 @@
 use kinemark_sim::text::number::metres;
 
 use super::mutants::OfMutant;
+use super::typed;
 use crate::judge::diagnose::{Agreement, AtGoal, NotNamed, Ruling};
 use crate::lab::TaskWork;
 use crate::record::grade::Outcome;
-use crate::record::quantity::with_unit;
+use crate::record::quantity::{with_unit, with_unit_unlike};
 use crate::record::verdict::Verdict;
 use crate::task::joint_units::JointUnits;
 
@@ -143,7 +144,7 @@ fn in_words(of: &OfMutant<'_>, why: &NotNamed) -> (String, String) {
                 format!(
                     "its answer earns nothing in {telling} of {cases} cases, hidden ones among them, and {needed} are needed{nearest}"
                 ),
-                more.to_owned(),
+                of_few_answers(of, more),
             )
         }
         NotNamed::NoGoal(goals) => {
@@ -228,12 +229,46 @@ fn at_goal(number: usize, goal: &AtGoal) -> String {
             metres(*from_start_m),
             metres(*still_m)
         ),
-        AtGoal::There { off_m, full_m } => format!(
-            "goal {number}: it stands {} from it, and more than {} would count",
-            metres(*off_m),
-            metres(*full_m)
-        ),
+        AtGoal::There {
+            off_m,
+            full_m,
+            turned_rad,
+        } => {
+            let turned = turned_rad.map_or(String::new(), |[turned, counts]| {
+                let turned = with_unit_unlike(turned, counts, "rad");
+                format!("; it is turned by {turned} away, and {counts} rad would count")
+            });
+            format!(
+                "goal {number}: it stands {} from it, and more than {} would count{turned}",
+                metres(*off_m),
+                metres(*full_m)
+            )
+        }
     }
+}
+
+/// What to do about a mutant with too few telling answers; `more` where nothing is special about it.
+fn of_few_answers(of: &OfMutant<'_>, more: &str) -> String {
+    if loses_branches(of) {
+        "a branch that is missing is never compared, since many answers miss one: write `named = false`".to_owned()
+    } else {
+        more.to_owned()
+    }
+}
+
+/// Whether a mutant loses in nothing but the number of its branches.
+fn loses_branches(of: &OfMutant<'_>) -> bool {
+    let table = typed::table(of.lab).unwrap_or_default();
+    let typed = typed::named(&table, "tasks", &of.task.name);
+    let is_of_branches = |check: &str| {
+        let typed = typed.and_then(|typed| typed::named(typed, "checks", check));
+        let kind = typed.and_then(typed::kind);
+        kind.is_some_and(|(kind, _)| kind == "ik-branches")
+    };
+    let checks = of.task.checks.iter();
+    let lost = |outcome| matches!(outcome, Outcome::Partial | Outcome::None);
+    let mut lost = checks.filter(|check| lost(check.outcome)).peekable();
+    lost.peek().is_some() && lost.all(|check| is_of_branches(&check.name))
 }
 
 fn is_whole_run(of: &OfMutant<'_>) -> bool {

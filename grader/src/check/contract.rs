@@ -149,9 +149,11 @@ pub fn dwell_band(checks: &[Check<dyn MotionCheck>]) -> Band {
     })
 }
 
-/// The band of distances, or of relative ones, by which single answers of a function task are called good or wrong.
+/// The band of distances, or of relative ones, by which single answers of a function task are called good or wrong: of several that judge
+/// them, the one whose `zero` is least.
 pub fn answer_band(checks: &[Check<dyn FunctionCheck>]) -> Band {
-    let found = checks.iter().find_map(|check| check.kind.answer_band());
+    let found = checks.iter().filter_map(|check| check.kind.answer_band());
+    let found = found.min_by(|a, b| a.zero.total_cmp(&b.zero));
     found.unwrap_or(Band {
         full: 1e-3,
         zero: 1e-2,

@@ -24,6 +24,7 @@ pub mod reference_run;
 mod robustness_sweep;
 mod shown_cases;
 mod single_case;
+mod solution_end;
 mod staff_attempts;
 pub(crate) mod staff_faults;
 
@@ -35,4 +36,5 @@ pub use grader::{Interrupted, Parts, engine, engine_digest, grade, parts};
 pub(crate) use opening::opening;
 pub(crate) use playback::played_back;
 pub use practice_form::{NoPractice, practice};
+pub(crate) use solution_end::{SolutionEnd, solution_end};
 pub(crate) use staff_attempts::StaffAttempts;

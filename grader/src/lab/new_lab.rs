@@ -229,13 +229,26 @@ impl NewLab<'_> {
 
     /// A range about each of the positions of a sample.
     fn about(&self, number: usize) -> String {
-        let ranges = position_ranges(self.robot);
-        let pairs = self.q(number).into_iter().zip(ranges).map(|(q, range)| {
-            let (low, high) = sampled(&range);
-            list(&[
-                round((q - ABOUT).max(low), 2),
-                round((q + ABOUT).min(high), 2),
-            ])
+        self.ranges(number, |q, (low, high)| {
+            ((q - ABOUT).max(low), (q + ABOUT).min(high))
+        })
+    }
+
+    /// A range beside each of them, and not about it: a hidden run near the visible one would hide nothing.
+    fn beside(&self, number: usize) -> String {
+        self.ranges(number, |q, (low, high)| match q + ABOUT <= high {
+            true => (q + 0.5 * ABOUT, q + ABOUT),
+            false => ((q - ABOUT).max(low), q - 0.5 * ABOUT),
+        })
+    }
+
+    /// A range for each of the positions of a sample, from the position and the ends of what is sampled.
+    fn ranges(&self, number: usize, range_of: impl Fn(f64, (f64, f64)) -> (f64, f64)) -> String {
+        let sampled_ranges = position_ranges(self.robot).into_iter();
+        let pairs = self.q(number).into_iter().zip(sampled_ranges);
+        let pairs = pairs.map(|(q, range)| {
+            let (from, to) = range_of(q, sampled(&range));
+            list(&[round(from, 2), round(to, 2)])
         });
         format!("[{}]", pairs.collect::<Vec<_>>().join(", "))
     }
@@ -601,7 +614,7 @@ impl NewLab<'_> {
                     format!(
                         "\n[[runs]]\ntask = \"{name}\"\nclass = \"another place\"\ncount = 1\nparameters = {{ {} = {} }}\n",
                         parameter(task),
-                        self.about(self.sample(task))
+                        self.beside(self.sample(task))
                     )
                 }
             };

@@ -19,8 +19,8 @@ mod trial;
 
 pub use self::mutation::{Mutation, drawn, mutations};
 pub use self::operators::OperatorName;
-pub(super) use self::report::no_mutation;
 pub use self::report::{
     CheckCatches, LEAST_CAUGHT, MutationProblem, MutationReport, TriedMutation,
 };
+pub(super) use self::report::{covers, no_mutation};
 pub use self::trial::{Bench, Catch, Fate, LosingSolution};

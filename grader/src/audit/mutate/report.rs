@@ -185,14 +185,14 @@ impl MutationReport {
     /// What is wrong with accepting the change called `of`; nothing where it survived or was not tried.
     fn stale(&self, bench: &Bench<'_>, of: &str) -> Option<MutationProblem> {
         let all = bench.mutations().iter();
-        let alike = all.filter(|mutation| mutation.of() == of).count();
+        let alike = all.filter(|mutation| covers(of, &mutation.of())).count();
         if alike == 0 {
             return Some(no_mutation(of));
         }
         let tried: Vec<&TriedMutation> = self
             .mutations
             .iter()
-            .filter(|tried| tried.mutation.of() == of)
+            .filter(|tried| covers(of, &tried.mutation.of()))
             .collect();
         // a line may be there twice: one of them that was not drawn may survive
         let survives = tried.iter().any(|tried| tried.fate == Fate::Survived);
@@ -214,6 +214,12 @@ impl MutationReport {
             help: "remove the entry".to_owned(),
         })
     }
+}
+
+/// Whether an entry of `accepted.toml` is about a change: it names the change, or its line alone, which stands for all changes of the line.
+pub(in crate::audit) fn covers(entry: &str, change: &str) -> bool {
+    let rest = change.strip_prefix(entry);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(" -> "))
 }
 
 /// What is wrong with an entry that names no change of the solution.

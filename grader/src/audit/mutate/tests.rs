@@ -1,5 +1,6 @@
 use kinemark_sim::text::Source;
 
+use super::covers;
 use super::mutation::{Mutation, drawn, mutations};
 use crate::submission::rhai::ProgramTree;
 
@@ -12,6 +13,15 @@ fn after(program: &str, operator: &str) -> Vec<String> {
     let of_kind = of(program).into_iter();
     let of_kind = of_kind.filter(|mutation| mutation.operator.0 == operator);
     of_kind.map(|mutation| mutation.after).collect()
+}
+
+#[test]
+fn a_line_alone_stands_for_its_changes() {
+    let change = "t += 0.15; -> t -= 0.15;";
+    assert!(covers(change, change) && covers("t += 0.15;", change));
+    for other in ["t += 0.15; -> t += 0.2;", "t += 0.1", "t -= 0.15;", "x"] {
+        assert!(!covers(other, change), "{other}");
+    }
 }
 
 /// A program, a kind of change, and the program after each.

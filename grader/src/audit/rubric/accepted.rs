@@ -7,6 +7,7 @@ use schemars::{JsonSchema, Schema};
 use serde::Deserialize;
 
 use super::{Doubt, RULES};
+use crate::audit::mutate::covers;
 use crate::lab::Lab;
 use crate::lab::load::tables;
 use crate::task::files::{Files, read_source};
@@ -128,10 +129,11 @@ impl Accepted {
         entries.map(|entry| entry.of.as_str())
     }
 
-    /// The entry that says why the change called `of` may survive, if one does.
+    /// The entry that says why the change called `of` may survive, if one does: one of this change, else one of its line.
     pub(in crate::audit) fn mutation(&self, of: &str) -> Option<&Entry> {
-        let mut entries = self.0.iter();
-        entries.find(|entry| entry.is_of_mutation() && entry.of == of)
+        let entries = self.0.iter().filter(|entry| entry.is_of_mutation());
+        let of_change = entries.clone().find(|entry| entry.of == of);
+        of_change.or_else(|| entries.clone().find(|entry| covers(&entry.of, of)))
     }
 
     /// The entry that accepts `doubt`, if one does.

@@ -1,9 +1,12 @@
 //! Bands in which nobody can lose, and bands in which the reference solution has hardly any room.
 
+use std::f64::consts::PI;
+
 use kinemark_sim::kinematics::workspace::sample_workspace;
 use nalgebra::Vector3;
 
-use super::{Doubt, Rubric, typed};
+use super::{Doubt, Rubric};
+use crate::audit::typed;
 use crate::audit::variants::{NOT_SPENT, is_thin};
 use crate::lab::{Lab, Task, TaskWork};
 use crate::record::grade::Measure;
@@ -29,7 +32,8 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             TaskWork::Function(_, checks) => {
                 for check in checks {
                     if let Some(band) = check.kind.band() {
-                        doubts.extend(doubt(task, &check.name, band, (None, None), reach_m));
+                        let size = (reach_m, joints.is_of_turning(task, &check.name));
+                        doubts.extend(doubt(task, &check.name, band, (None, None), size));
                     }
                 }
             }
@@ -44,7 +48,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                             &check.name,
                             band,
                             (Some(motion), joint),
-                            reach_m,
+                            (reach_m, joints.is_of_turning(task, &check.name)),
                         ));
                     }
                 }
@@ -65,10 +69,21 @@ impl<'a> TypedJoints<'a> {
         Self { lab, table }
     }
 
+    /// The kind of a check with its keys.
+    fn kind(&self, task: &Task, check: &str) -> Option<(&str, &toml::Table)> {
+        let typed = typed::named(&self.table, "tasks", &task.name)?;
+        typed::kind(typed::named(typed, "checks", check)?)
+    }
+
+    /// Whether a check measures how the TCP is turned.
+    fn is_of_turning(&self, task: &Task, check: &str) -> bool {
+        let kind = self.kind(task, check);
+        kind.is_some_and(|(kind, _)| kind.contains("orientation"))
+    }
+
     /// The entry of the joint that a check reads, if it reads one.
     fn joint(&self, task: &Task, check: &str) -> Option<usize> {
-        let typed = typed::named(&self.table, "tasks", &task.name)?;
-        let (_, kind) = typed::kind(typed::named(typed, "checks", check)?)?;
+        let (_, kind) = self.kind(task, check)?;
         let name = kind.get("joint")?.as_str()?;
         let mut joints = self.lab.of_task(task).robot.moving_joints();
         joints.position(|joint| joint.name == name)
@@ -107,7 +122,7 @@ fn doubt(
     check: &str,
     (band, unit): (Band, &'static str),
     (motion, joint): (Option<&MotionTask>, Option<usize>),
-    reach_m: f64,
+    (reach_m, is_of_turning): (f64, bool),
 ) -> Option<Doubt> {
     // where more is better, a band beyond what can be is one that the reference solution does not reach
     if band.more_is_better() {
@@ -131,6 +146,19 @@ fn doubt(
         "" => (1.0, "that is the whole of it:"),
         _ => return None,
     };
+    // nothing is turned away by more than half a turn; an angle of a joint may be
+    if unit == "rad" && joint.is_none() && is_of_turning && band.full < limit && band.zero > PI {
+        return Some(Doubt {
+            rule: "band",
+            of: format!("{}/{check}", task.name),
+            what: format!(
+                "no points from {} on, and nothing is turned away by more than half a turn, {}: nobody earns nothing",
+                with_unit(band.zero, unit),
+                with_unit(PI, unit)
+            ),
+            help: "is the number in radians? `zero` is the least that earns nothing".to_owned(),
+        });
+    }
     // nobody's hand is farther off than the workspace is wide
     let widest = 2.0 * reach_m;
     if unit == "m" && band.full < limit && band.zero > widest && widest.is_finite() {

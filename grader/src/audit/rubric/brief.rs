@@ -1,5 +1,7 @@
 //! What is graded and the brief does not mention: functions to write, what a task lends, what it gives, sensors.
 
+use kinemark_sim::control::{Gains, Mode};
+
 use super::{Doubt, Rubric};
 use crate::lab::TaskWork;
 use crate::task::value::Value;
@@ -52,6 +54,48 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         for grant in grants {
             let what = format!("which task \"{title}\" lends");
             needs(grant.name(), &what, doubts);
+        }
+    }
+}
+
+/// A gain of a servo, by its key.
+type Gain = (&'static str, fn(&Gains) -> f64);
+
+/// Gains of servos that the brief speaks of, and gives another number for.
+pub(super) fn gains(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let Some(brief) = rubric.brief else {
+        return;
+    };
+    let given: Vec<f64> = brief
+        .split(|c: char| !(c.is_ascii_digit() || c == '.'))
+        .filter_map(|part| part.trim_end_matches('.').parse().ok())
+        .collect();
+    let kinds: [Gain; 2] = [("kp", |gains| gains.kp), ("kd", |gains| gains.kd)];
+    for task in &rubric.lab.tasks {
+        let TaskWork::Motion(motion, _) = &task.work else {
+            continue;
+        };
+        // gains do nothing in mode `effort`
+        let kinds = kinds
+            .iter()
+            .filter(|(key, _)| motion.servo.mode != Mode::Effort && mentions(brief, key));
+        for (key, gain) in kinds {
+            let mut gains = motion.servo.gains.iter().map(gain);
+            let is_missing = |gain: &f64| {
+                gain.abs() > 0.0
+                    && !given
+                        .iter()
+                        .any(|given| (given - gain).abs() <= 1e-9 * gain.abs())
+            };
+            if let Some(gain) = gains.find(is_missing) {
+                doubts.push(Doubt {
+                    rule: "brief",
+                    of: format!("{}/{key}", task.name),
+                    what: format!("the servo has {key} = {gain}, and the brief, which speaks of `{key}`, has no such number"),
+                    help: "write the gains of this task in the brief, with a mark where they differ from student to student"
+                        .to_owned(),
+                });
+            }
         }
     }
 }

@@ -16,9 +16,11 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     });
     doubts.extend(problems.into_iter().map(|problem| Doubt {
         rule: "corners",
-        of: match problem.key == NOT_LOADED {
-            true => "variants".to_owned(),
-            false => problem.key,
+        of: match problem.key.split_once(": ") {
+            _ if problem.key == NOT_LOADED => "variants".to_owned(),
+            // of a stop the rest of the key is no place
+            Some((task, _)) => task.to_owned(),
+            None => problem.key,
         },
         what: problem.what,
         help: format!("narrow the range in [variants], {}", problem.help),

@@ -3,7 +3,8 @@
 use nalgebra::Vector3;
 use toml::Table;
 
-use super::{Doubt, Rubric, typed};
+use super::{Doubt, Rubric};
+use crate::audit::typed;
 use crate::lab::{Task, TaskWork};
 use crate::record::quantity::with_unit;
 use crate::task::model::{Band, MotionTask};

@@ -49,7 +49,15 @@ pub(super) fn dead(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         return;
     }
     let losses = rubric.losses();
-    for task in &rubric.lab.tasks {
+    // where the solution stops, nobody is judged: that is the problem
+    let mut graded = rubric.graded_tasks();
+    let stopped: Vec<&str> = graded
+        .by_ref()
+        .filter(|(_, grade)| grade.stopped.is_some())
+        .map(|(task, _)| task.name.as_str())
+        .collect();
+    let tasks = rubric.lab.tasks.iter();
+    for task in tasks.filter(|task| !stopped.contains(&task.name.as_str())) {
         for check in task.checks() {
             let mut grades = losses.of_check(&task.name, &check.name);
             if grades.any(is_lost) {

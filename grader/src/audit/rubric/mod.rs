@@ -3,6 +3,7 @@
 //! | file | what it looks for |
 //! |---|---|
 //! | `band` | bands in which nobody can lose, and margins that are too narrow |
+//! | `related_bands` | bands that do not fit to each other |
 //! | `reach` | cases, goals and paths that the robot cannot reach, or only where it is singular; branches that are counted wrongly |
 //! | `unused` | parameters, variants, paths, sensors and frames that nothing uses |
 //! | `goals` | goals that are nearer to each other than their band, stays of a moment, targets that are not the path |
@@ -32,10 +33,10 @@ mod hidden;
 mod lost;
 mod names;
 mod reach;
+mod related_bands;
 mod settings;
 mod times;
 mod twice;
-mod typed;
 mod unused;
 mod variants;
 mod words;
@@ -46,7 +47,7 @@ pub use self::accepted::Accepted;
 pub(super) use self::accepted::{CHOICE, MUTATION};
 use self::lost::Losses;
 pub use self::lost::zeros;
-use super::mutate::{Mutation, MutationProblem, mutations, no_mutation};
+use super::mutate::{Mutation, MutationProblem, covers, mutations, no_mutation};
 use super::{Audit, Problem, Tried, VariantMargin, Variants};
 use crate::lab::{Lab, Staff, Task};
 use crate::record::grade::{Grade, TaskGrade};
@@ -155,7 +156,10 @@ const RULES: &[Rule] = &[
         },
     ),
     ("salt", "nobody can guess it", hidden::salt),
-    ("brief", "mentions what is graded", brief::rule),
+    ("brief", "mentions what is graded", |rubric, doubts| {
+        brief::rule(rubric, doubts);
+        brief::gains(rubric, doubts);
+    }),
     (
         "words",
         "words and numbers say what is graded",
@@ -169,7 +173,10 @@ const RULES: &[Rule] = &[
         "what is mentioned is there, and nothing says TODO",
         names::rule,
     ),
-    ("band", "points can be lost", band::rule),
+    ("band", "points can be lost", |rubric, doubts| {
+        band::rule(rubric, doubts);
+        related_bands::rule(rubric, doubts);
+    }),
     (
         "margin",
         "the reference has room in every band",
@@ -248,7 +255,7 @@ impl Audit {
         let known = mutations(&rubric.staff.solution);
         let known: Vec<String> = known.iter().map(Mutation::of).collect();
         for of in accepted {
-            if !known.iter().any(|known| known == of) {
+            if !known.iter().any(|known| covers(of, known)) {
                 let MutationProblem { what, help, .. } = no_mutation(of);
                 let problem = Problem::from((what, help));
                 self.add((Tried::Rubric, MUTATION), None, None, Some(problem));

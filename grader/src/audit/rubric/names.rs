@@ -10,6 +10,20 @@ use crate::task::value::Value;
 
 /// What a lab has not decided yet.
 const TODO: &str = "TODO";
+/// What `observation` has.
+const OBSERVED: [&str; 11] = [
+    "task",
+    "target",
+    "sensors",
+    "tick",
+    "time",
+    "dt",
+    "q",
+    "qd",
+    "effort",
+    "tcp",
+    "tcp_rotation",
+];
 /// What `robot` has besides its dimensions.
 const OF_EVERY_ROBOT: [&str; 6] = ["name", "joints", "joint_names", "lower", "upper", "effort"];
 
@@ -29,6 +43,27 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                     times => format!("it still says {TODO}, {times} times"),
                 },
                 help: "write what is missing there: students read it".to_owned(),
+            });
+        }
+        let observed = members(text, "observation");
+        if let Some(name) = observed.into_iter().find(|name| !OBSERVED.contains(name)) {
+            doubts.push(Doubt {
+                rule: "names",
+                of: place.clone(),
+                what: format!("it mentions `observation.{name}`, which there is not"),
+                help: format!("`observation` has {}", OBSERVED.join(", ")),
+            });
+        }
+        let of_list = members(text, "observation.target").next();
+        if let Some(name) = of_list.filter(|_| known.has_goals_alone(rubric)) {
+            doubts.push(Doubt {
+                rule: "names",
+                of: place.clone(),
+                what: format!(
+                    "it mentions `observation.target.{name}`, and the target is the list of goals"
+                ),
+                help: "write `observation.target[0]`, or give the task a `target` with names"
+                    .to_owned(),
             });
         }
         for (owner, names) in known.by_owner() {
@@ -115,6 +150,12 @@ impl Known {
             }
         }
         known
+    }
+
+    /// Whether students are given goals alone: a list, without names.
+    fn has_goals_alone(&self, rubric: &Rubric<'_>) -> bool {
+        let mut tasks = rubric.lab.tasks.iter();
+        self.target.is_empty() && tasks.any(|task| matches!(task.work, TaskWork::Motion(..)))
     }
 
     /// Those that have names: a list, or what no task has, has none.

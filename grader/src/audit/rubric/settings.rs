@@ -2,11 +2,13 @@
 
 use kinemark_sim::control::Mode;
 use kinemark_sim::text::number::list;
+use toml::{Table, Value};
 
 use super::{Doubt, Rubric};
-use crate::lab::TaskWork;
+use crate::audit::typed;
+use crate::lab::{Lab, TaskWork};
 use crate::task::model::MotionTask;
-use crate::task::value::Value;
+use crate::task::value::Value as Given;
 
 /// What `robot` holds in submissions besides the dimensions.
 const OF_ROBOT: [&str; 7] = [
@@ -48,11 +50,13 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             });
         }
     }
+    let typed = typed::table(lab).unwrap_or_default();
     for task in &lab.tasks {
         let TaskWork::Motion(motion, _) = &task.work else {
             continue;
         };
         doubts.extend(of_target(&task.name, motion));
+        doubts.extend(above_robot(lab.of_task(task), &task.name, &typed));
         let has_gain = motion.servo.gains.iter().any(|gains| {
             [gains.kp, gains.ki, gains.kd]
                 .iter()
@@ -70,9 +74,38 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
 }
 
+/// A limit of the servo above that of the robot's joint, which holds.
+fn above_robot(lab: &Lab, task: &str, typed: &Table) -> Option<Doubt> {
+    let servo = typed::named(typed, "tasks", task)?
+        .get("motion")?
+        .get("servo")?;
+    let number = |value: &Value| {
+        value
+            .as_float()
+            .or_else(|| value.as_integer().map(|x| x as f64))
+    };
+    // one number for all joints is an upper bound, and no joint's own
+    let limits = servo.get("effort_limit")?.as_array()?.iter();
+    let limits: Vec<f64> = limits.map(number).collect::<Option<_>>()?;
+    let mut joints = lab.robot.moving_joints().zip(limits);
+    let (joint, of_servo, of_robot) = joints.find_map(|(joint, of_servo)| {
+        let of_robot = joint.limits.effort?;
+        (of_servo > of_robot).then_some((&joint.name, of_servo, of_robot))
+    })?;
+    Some(Doubt {
+        rule: "settings",
+        of: format!("{task}/servo"),
+        what: format!(
+            "`effort_limit` gives joint `{joint}` {of_servo}, and the robot's own limit is {of_robot}: that is what it has"
+        ),
+        help: "write the lesser number in `effort_limit`, or the greater one in the robot file"
+            .to_owned(),
+    })
+}
+
 /// A key of the target that says what the servo has, and says something else.
 fn of_target(task: &str, motion: &MotionTask) -> Option<Doubt> {
-    let Value::Map(entries) = &motion.target else {
+    let Given::Map(entries) = &motion.target else {
         return None;
     };
     entries.iter().find_map(|(name, stated)| {
@@ -86,10 +119,10 @@ fn of_target(task: &str, motion: &MotionTask) -> Option<Doubt> {
         };
         let is = match stated {
             // one number may be that of one joint
-            Value::Number(stated) => of_servo.contains(stated),
-            Value::List(stated) if stated.len() == of_servo.len() => {
+            Given::Number(stated) => of_servo.contains(stated),
+            Given::List(stated) if stated.len() == of_servo.len() => {
                 let mut pairs = stated.iter().zip(&of_servo);
-                pairs.all(|(stated, of_servo)| *stated == Value::Number(*of_servo))
+                pairs.all(|(stated, of_servo)| *stated == Given::Number(*of_servo))
             }
             _ => true,
         };

@@ -2,12 +2,13 @@
 
 use toml::Value;
 
-use super::{Doubt, Rubric, typed};
+use super::{Doubt, Rubric};
+use crate::audit::typed;
 use crate::lab::{Lab, TaskWork};
 use crate::task::model::MotionTask;
 
 /// What begins another sentence, or another line of a list or table.
-const ENDS: [&str; 5] = [". ", ".\n", "\n\n", "\n- ", "\n|"];
+const ENDS: [&str; 6] = [". ", ".\n", "\n\n", "\n- ", "\n|", ";"];
 
 /// A time in the brief that no run, no period and no number of lab.toml has.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
@@ -20,7 +21,9 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
     let mut typed = Vec::new();
     let table = typed::table(rubric.lab).unwrap_or_default();
-    table.values().for_each(|value| numbers(value, &mut typed));
+    table
+        .iter()
+        .for_each(|(key, value)| times_typed(key, value, &mut typed));
     let durations = motions.iter().map(|m| m.periods.time_s(m.ticks));
     let durations: Vec<f64> = durations.collect();
     let periods = motions.iter().map(|m| m.periods.control_s());
@@ -43,9 +46,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         for (stated_s, what, of_lab, real) in stated {
             let Some(stated_s) = stated_s else { continue };
             let mut known = real.iter().chain(&others).chain(&typed);
-            // milliseconds are typed as such
-            let is_known = |x: &f64| is_near(*x, stated_s) || is_near(*x, 1e3 * stated_s);
-            if known.any(is_known) {
+            if known.any(|x| is_near(*x, stated_s)) {
                 continue;
             }
             let mut real: Vec<String> = real.iter().map(|x| format!("{x} s")).collect();
@@ -74,19 +75,35 @@ fn is_near(a: f64, b: f64) -> bool {
     (a - b).abs() <= 1e-6 * b.abs()
 }
 
-/// The numbers in a value of lab.toml.
-fn numbers(value: &Value, found: &mut Vec<f64>) {
+/// The times \[s\] at a key of lab.toml: it ends with its unit.
+fn times_typed(key: &str, value: &Value, found: &mut Vec<f64>) {
+    let unit_s = match key.rsplit('_').next() {
+        Some("s") => 1.0,
+        Some("ms") => 1e-3,
+        _ => 0.0,
+    };
+    let is_time = unit_s > 0.0;
     match value {
-        Value::Float(number) => found.push(*number),
-        Value::Integer(number) => found.push(*number as f64),
-        Value::Array(items) => items.iter().for_each(|item| numbers(item, found)),
-        Value::Table(table) => table.values().for_each(|item| numbers(item, found)),
-        Value::Boolean(_) | Value::Datetime(_) => {}
-        // an expression such as "= 0.5 * period" has numbers, too
-        Value::String(text) => {
-            let parts = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
-            found.extend(parts.filter_map(|part| part.parse::<f64>().ok()));
+        Value::Float(number) if is_time => found.push(unit_s * number),
+        Value::Integer(number) if is_time => found.push(unit_s * *number as f64),
+        Value::Array(items) => items.iter().for_each(|item| times_typed(key, item, found)),
+        Value::Table(table) => {
+            let mut entries = table.iter();
+            entries
+                .by_ref()
+                .for_each(|(key, item)| times_typed(key, item, found));
         }
+        // an expression such as "= 0.5 * period" has numbers, too
+        Value::String(text) if is_time => {
+            let parts = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
+            let numbers = parts.filter_map(|part| part.parse::<f64>().ok());
+            found.extend(numbers.map(|number| unit_s * number));
+        }
+        Value::Float(_)
+        | Value::Integer(_)
+        | Value::String(_)
+        | Value::Boolean(_)
+        | Value::Datetime(_) => {}
     }
 }
 
@@ -102,7 +119,8 @@ fn sentences(brief: &str) -> impl Iterator<Item = &str> {
 /// The one time in a sentence about how long a run is.
 fn duration_s(words: &[&str]) -> Option<f64> {
     let has = |wanted: &[&str]| words.iter().any(|word| wanted.contains(&bare(word)));
-    let is_about = has(&["run", "runs"]) && has(&["takes", "take", "lasts", "last", "long"]);
+    let is_about =
+        has(&["run", "runs"]) && has(&["takes", "take", "lasts", "last", "long", "ends", "end"]);
     let mut times = times(words);
     let (Some((_, time_s)), None) = (times.next(), times.next()) else {
         return None;
@@ -167,6 +185,7 @@ mod tests {
             ("The run takes 8 s", Some(8.0)),
             ("each run is **2.5** seconds long", Some(2.5)),
             ("the run lasts 8 s, of which 2 s count", None),
+            ("The run ends at 12 s", Some(12.0)),
             ("hold it for 0.5 s", None),
             ("the run takes long", None),
         ] {

@@ -3,8 +3,8 @@
 use toml::{Table, Value as Toml};
 
 use super::hidden::is_same;
-use super::typed::{self, name, tables};
 use super::{Doubt, Rubric};
+use crate::audit::typed::{self, name, tables};
 use crate::lab::TaskWork;
 
 /// Looks for all of them.
@@ -14,6 +14,8 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     if let Some(table) = typed::table(rubric.lab) {
         let tasks = tables(&table, "tasks");
         checks(&tasks, doubts);
+        titles(&tasks, doubts);
+        segments(&tasks, doubts);
         functions(&tasks, doubts);
     }
 }
@@ -89,6 +91,67 @@ fn checks(tasks: &[&Table], doubts: &mut Vec<Doubt>) {
     }
 }
 
+/// Checks of one task with the same title: the table of points has two rows that nobody can tell apart.
+fn titles(tasks: &[&Table], doubts: &mut Vec<Doubt>) {
+    let title = |check: &Table| {
+        check
+            .get("title")
+            .and_then(Toml::as_str)
+            .map(str::to_lowercase)
+    };
+    for task in tasks {
+        let checks = tables(task, "checks");
+        for (i, check) in checks.iter().enumerate() {
+            // a file that was just begun has the same TODO everywhere
+            let own = title(check).filter(|title| !title.starts_with("todo"));
+            let mut before = checks[..i].iter();
+            if let Some(first) = before.find(|first| own.is_some() && title(first) == own) {
+                doubts.push(doubt(
+                    format!("{}/{}", name(task), name(check)),
+                    format!("it has the title of check `{}`", name(first)),
+                    "say in each title what it measures",
+                ));
+            }
+        }
+    }
+}
+
+/// Two checks of one kind that follow the same segment of a path, another segment of which none follows.
+fn segments(tasks: &[&Table], doubts: &mut Vec<Doubt>) {
+    for task in tasks {
+        let checks = tables(task, "checks");
+        let followed: Vec<(&str, &str, i64)> = checks
+            .iter()
+            .filter_map(|check| {
+                let (kind, keys) = typed::kind(check)?;
+                let path = keys.get("path")?.as_str()?;
+                Some((kind, path, keys.get("segment")?.as_integer()?))
+            })
+            .collect();
+        for (i, one) in followed.iter().enumerate() {
+            let alike = |other: &&(&str, &str, i64)| other.0 == one.0 && other.1 == one.1;
+            let is_again = followed[..i].contains(one);
+            let others = followed.iter().filter(alike).all(|other| other.2 == one.2);
+            let count = task
+                .get("motion")
+                .and_then(|motion| motion.get("paths")?.get(one.1)?.get("points_m")?.as_array())
+                .map_or(0, Vec::len);
+            if is_again && others && count > 2 {
+                doubts.push(doubt(
+                    format!("{}/{}", name(task), one.1),
+                    format!(
+                        "two checks `{}` follow segment {} of the path, and none another of its {}",
+                        one.0,
+                        one.2,
+                        count - 1
+                    ),
+                    "let each of them follow its own segment",
+                ));
+            }
+        }
+    }
+}
+
 /// What a check measures: its table of its kind.
 fn measures(check: &Table) -> Vec<(&String, &Toml)> {
     check.iter().filter(|(_, value)| value.is_table()).collect()
@@ -115,6 +178,31 @@ fn functions(tasks: &[&Table], doubts: &mut Vec<Doubt>) {
                 ),
                 "one function earns its points once: remove one of the two",
             ));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_segment_that_is_followed_twice_while_another_is_not_is_found() {
+        let task = |first: u32, second: u32| {
+            let check = |segment: u32| {
+                format!(
+                    "[[checks]]\nname = \"c\"\npath-end = {{ path = \"line\", segment = {segment} }}\n"
+                )
+            };
+            let path = "motion.paths.line.points_m = [[1, 0], [1, 1], [2, 1]]\n";
+            let text = format!("name = \"t\"\n{path}{}{}", check(first), check(second));
+            text.parse::<Table>().expect("TOML")
+        };
+        for (segments, count) in [([1, 1], 1), ([1, 2], 0)] {
+            let task = task(segments[0], segments[1]);
+            let mut doubts = Vec::new();
+            super::segments(&[&task], &mut doubts);
+            assert_eq!(doubts.len(), count, "{segments:?}: {doubts:?}");
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use toml::Value;
 
-use super::{Doubt, Rubric, typed};
+use super::{Doubt, Rubric};
+use crate::audit::typed;
 use crate::lab::{Lab, Task, TaskWork};
 use crate::task::value::Value as Target;
 

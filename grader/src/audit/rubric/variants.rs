@@ -2,7 +2,8 @@
 
 use toml::Value as Toml;
 
-use super::{Doubt, Rubric, typed};
+use super::{Doubt, Rubric};
+use crate::audit::typed;
 
 /// What `[variants]` says of parameters that do not vary.
 fn of_nothing(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {

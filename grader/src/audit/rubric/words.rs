@@ -3,7 +3,8 @@
 use kinemark_sim::text::Dimension;
 use toml::{Table, Value as Toml};
 
-use super::{Doubt, Rubric, typed};
+use super::{Doubt, Rubric};
+use crate::audit::typed;
 use crate::lab::{Lab, Task, TaskWork};
 use crate::record::quantity::points;
 use crate::task::value::Value;
@@ -25,6 +26,68 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         of_names(rubric.lab, task, typed, doubts);
     }
     of_hints(rubric.lab, &table, doubts);
+    of_sides(&table, doubts);
+    if let Some(brief) = rubric.brief {
+        of_title(rubric.lab, brief, doubts);
+    }
+}
+
+/// Words that exclude each other.
+const OPPOSITES: [[&str; 2]; 4] = [
+    ["near", "far"],
+    ["left", "right"],
+    ["front", "back"],
+    ["above", "below"],
+];
+
+/// A check whose title says the opposite of one of its keys, such as `side = "near"`.
+fn of_sides(table: &Table, doubts: &mut Vec<Doubt>) {
+    for task in typed::tables(table, "tasks") {
+        for check in typed::tables(task, "checks") {
+            let title = check
+                .get("title")
+                .and_then(Toml::as_str)
+                .unwrap_or_default();
+            let Some((_, keys)) = typed::kind(check) else {
+                continue;
+            };
+            let said = keys.iter().find_map(|(key, value)| {
+                let value = value.as_str()?;
+                let pair = OPPOSITES.iter().find(|pair| pair.contains(&value))?;
+                let other = pair.iter().find(|word| **word != value)?;
+                (has_word(title, other) && !has_word(title, value)).then_some((key, value, other))
+            });
+            if let Some((key, value, other)) = said {
+                doubts.push(doubt(
+                    format!("{}/{}", typed::name(task), typed::name(check)),
+                    format!("\"{title}\" says {other}, and {key} = \"{value}\""),
+                    "say the same in the title and in the key",
+                ));
+            }
+        }
+    }
+}
+
+/// A brief whose first heading has no word of the lab's title.
+fn of_title(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
+    let first = brief.lines().find(|line| !line.trim().is_empty());
+    let Some(heading) = first.filter(|line| line.starts_with("# ")) else {
+        return;
+    };
+    let mut words = lab.title.split(|c: char| !c.is_alphanumeric());
+    let is_there = words.any(|word| word.chars().count() > 3 && has_word(heading, word));
+    let is_long = lab.title.split_whitespace().count() > 1;
+    if is_long && !is_there {
+        doubts.push(doubt(
+            "title".to_owned(),
+            format!(
+                "the lab is called \"{}\", and the brief begins with \"{}\"",
+                lab.title,
+                heading.trim_start_matches("# ")
+            ),
+            "give both the same name: students look for it in lists and in the report",
+        ));
+    }
 }
 
 fn doubt(of: String, what: String, help: &str) -> Doubt {
@@ -337,6 +400,26 @@ mod tests {
         // what stands in a mark is part of none
         assert!(found.starts_with(&[-0.25, 3.0]), "{found:?}");
         assert_eq!(marks(brief).collect::<Vec<_>>(), [" x ", " y[1] "]);
+    }
+
+    #[test]
+    fn a_title_that_says_the_opposite_of_a_key_is_found() {
+        let table = |title: &str| {
+            let text = format!(
+                "[[tasks]]\nname = \"t\"\n[[tasks.checks]]\nname = \"c\"\ntitle = \"{title}\"\nbody-falls = {{ side = \"near\" }}\n"
+            );
+            text.parse::<Table>().expect("TOML")
+        };
+        for (title, count) in [
+            ("Over the far edge", 1),
+            ("Over the near edge", 0),
+            ("Near, not far", 0),
+            ("It falls", 0),
+        ] {
+            let mut doubts = Vec::new();
+            of_sides(&table(title), &mut doubts);
+            assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
+        }
     }
 
     #[test]

@@ -31,6 +31,9 @@ problems! {
         Unknown { entry: String, known: Vec<String> }:
             "lab::unknown_entry", "no case expects an entry `{entry}`", "not an entry of `expected`",
             near(entry, "entries", known);
+        Unnamed { function: String }:
+            "lab::unknown_entry", "the answer of `{function}` has no entries with names", "no entry of it",
+            "leave `entry` out: all numbers of the answer count";
     }
 }
 
@@ -49,6 +52,11 @@ impl FunctionTable for Table {
             if !known.contains(&entry) {
                 return reading.refuse_at(typed, EntryProblem::Unknown { entry, known });
             }
+        }
+        let is_of_robot = !matches!(first, Some(Given::Values { .. }) | None);
+        if let Some(typed) = self.entry.as_ref().filter(|_| is_of_robot) {
+            let function = reading.of.name().to_owned();
+            return reading.refuse_at(typed, EntryProblem::Unnamed { function });
         }
         let entry = self.entry.as_ref().map(|entry| entry.get_ref().clone());
         reading.in_band([self.full, self.zero], "", FunctionCases { entry })

@@ -49,7 +49,7 @@ impl AnswerMeasure for IkBranches {
             .mean_score("targets with every branch", |facts| {
                 score(facts, cases.band, self.turned)
             })
-            .advise("The arm can bend either way: return both, `[[q1, q2], [q1, q2]]`.")
+            .advise("Return every branch that reaches the target, within the limits of the joints: a list of lists, such as `[[q1, q2], [q1, q2]]` for an arm that can bend either way.")
     }
 
     fn is_of_single_answers(&self) -> bool {
@@ -58,7 +58,7 @@ impl AnswerMeasure for IkBranches {
     }
 
     fn bounds(&self, full: String, zero: String) -> [String; 2] {
-        of_every_target(full, zero)
+        of_every_target((full, zero), self.turned)
     }
 }
 

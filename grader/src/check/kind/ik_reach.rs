@@ -142,15 +142,21 @@ impl AnswerMeasure for IkReach {
     }
 
     fn bounds(&self, full: String, zero: String) -> [String; 2] {
-        of_every_target(full, zero)
+        of_every_target((full, zero), self.turned)
     }
 }
 
-/// What the brief says of a band in which every target is judged.
-pub(super) fn of_every_target(full: String, zero: String) -> [String; 2] {
+/// What the brief says of a band in which every target is judged, and of that of angles, where there is one.
+pub(super) fn of_every_target(
+    (full, zero): (String, String),
+    turned: Option<Band>,
+) -> [String; 2] {
+    let of = |angle: fn(Band) -> f64, word: &str| {
+        turned.map_or(String::new(), |band| format!(" {word} {} rad", angle(band)))
+    };
     [
-        format!("every target within {full}"),
-        format!("every target {zero} off"),
+        format!("every target within {full}{}", of(|band| band.full, "and")),
+        format!("every target {zero}{} off", of(|band| band.zero, "or")),
     ]
 }
 
@@ -178,4 +184,24 @@ pub(super) fn any_beyond_limit(facts: &CaseFacts<'_>) -> Option<String> {
     };
     let mut beyond = branches.iter();
     beyond.find_map(|q| beyond_limit(facts.robot, q))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_band_of_angles_is_in_the_table() {
+        let ends = || ("0.01 mm".to_owned(), "5.0 mm".to_owned());
+        let turned = Band {
+            full: 1e-5,
+            zero: 0.05,
+        };
+        let [full, zero] = of_every_target(ends(), Some(turned));
+        assert_eq!(full, "every target within 0.01 mm and 0.00001 rad");
+        assert_eq!(zero, "every target 5.0 mm or 0.05 rad off");
+        let [full, zero] = of_every_target(ends(), None);
+        assert_eq!(full, "every target within 0.01 mm");
+        assert_eq!(zero, "every target 5.0 mm off");
+    }
 }

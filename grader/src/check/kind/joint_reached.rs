@@ -2,6 +2,8 @@
 //!
 //! Measured is the greatest distance from the position over the last `hold_s` \[rad or m\].
 
+use kinemark_sim::control::Mode;
+
 use crate::check::prelude::*;
 
 problems! {
@@ -95,11 +97,18 @@ impl RunMeasure for JointReached {
         let values = (0..facts.trace.len()).map(error_at).collect();
         let mut curve = facts.curve(title, unit, values, band);
         curve.marks = vec![(facts.time_s(first), "judged from here".to_owned())];
-        finding
-            .advise(format!(
-                "Return {position} for joint `{name}` from `control`, at every call."
-            ))
-            .drawn(curve)
+        let advice = match facts.motion.servo.mode {
+            Mode::Position | Mode::Prescribed => {
+                format!("Return {position} for joint `{name}` from `control`, at every call.")
+            }
+            Mode::Velocity => format!(
+                "Command a velocity that takes joint `{name}` to {position} {unit} and is zero there: what is left of the way, times a gain."
+            ),
+            Mode::Effort => format!(
+                "Command the effort that takes joint `{name}` to {position} {unit} and keeps it there: at rest, it is what gravity asks for there."
+            ),
+        };
+        finding.advise(advice).drawn(curve)
     }
 }
 
@@ -151,6 +160,20 @@ mod tests {
     use crate::check::by_hand::{HandRow, judged, value};
 
     const MOTION: &str = "mode = \"effort\"\nduration_s = 1.0";
+
+    #[test]
+    fn what_is_advised_is_what_control_commands() {
+        for (mode, advice) in [
+            ("position", "Return 3.1 for joint `elbow` from `control`"),
+            ("velocity", "Command a velocity that takes joint `elbow` to 3.1 rad"),
+            ("effort", "Command the effort that takes joint `elbow` to 3.1 rad"),
+        ] {
+            let motion = format!("mode = \"{mode}\"\nduration_s = 1.0");
+            let kind = "joint-reached = { joint = \"elbow\", position_rad = 3.1, hold_s = 0.5, full_rad = 0.1, zero_rad = 1.0 }";
+            let finding = judged(&motion, kind, |_| HandRow::default());
+            assert!(finding.next_step.starts_with(advice), "{}", finding.next_step);
+        }
+    }
 
     #[test]
     fn whole_turns_make_no_difference_where_the_lab_says_so() {

@@ -91,6 +91,8 @@ pub enum AtGoal {
         off_m: f64,
         /// As much earns all points \[m\].
         full_m: f64,
+        /// Where the goal asks for an orientation, how far it is turned away, and how far counts \[rad\].
+        turned_rad: Option<[f64; 2]>,
     },
 }
 

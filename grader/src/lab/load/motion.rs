@@ -47,6 +47,9 @@ problems! {
         OpenLoop { robot: String, gap_m: f64, help: String }:
             "lab::start", "a loop of robot `{robot}` is open by {gap_m:.4} m at this start",
             "not a place where the robot can be", help;
+        Unclosed { error: String }:
+            "lab::start", "at this start a loop stays open: {error}", "not a place where the robot can be",
+            "choose other positions of the independent joints";
         OpeningLoop { help: String }:
             "lab::start", "these velocities would open a loop", "the loops do not allow this", help;
         NoInertia { robot: String, link: String, joint: String }:
@@ -120,6 +123,10 @@ impl Reader<'_> {
     fn start(&self, motion: &MotionTable) -> Result<(Vec<f64>, Vec<f64>), LabError> {
         let q = match &motion.start_rad {
             None => self.robot.home().to_vec(),
+            Some(start) if self.is_of_independent(start) => {
+                let closed = closed_positions(self.robot, start.get_ref());
+                closed.or_else(|error| self.stays_open(start, &error))?
+            }
             Some(start) => {
                 self.counted(start, "start_rad")?;
                 self.closes(start)?;
@@ -128,6 +135,10 @@ impl Reader<'_> {
         };
         let qd = match &motion.start_rad_s {
             None => vec![0.0; self.robot.n()],
+            Some(start) if self.is_of_independent(start) => {
+                let closed = closed_velocities(self.robot, &q, start.get_ref());
+                closed.or_else(|error| self.stays_open(start, &error))?
+            }
             Some(start) => {
                 self.counted(start, "start_rad_s")?;
                 self.keeps_closed(start, &q)?;
@@ -135,6 +146,23 @@ impl Reader<'_> {
             }
         };
         Ok((q, qd))
+    }
+
+    /// Whether a list has a number for each independent joint of a robot with loops, and none for the others, which follow.
+    fn is_of_independent(&self, typed: &Spanned<Vec<f64>>) -> bool {
+        let independent = self.robot.independent().len();
+        independent < self.robot.n() && typed.get_ref().len() == independent
+    }
+
+    /// Refuses a start for which the loops cannot be closed.
+    fn stays_open<T>(
+        &self,
+        start: &Spanned<Vec<f64>>,
+        error: &impl std::fmt::Display,
+    ) -> Result<T, LabError> {
+        let error = error.to_string();
+        self.report
+            .refuse_at(start, MotionProblem::Unclosed { error })
     }
 
     /// The periods, each a whole number of the one before.

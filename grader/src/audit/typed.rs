@@ -1,23 +1,23 @@
-//! lab.toml as it is typed: what a rule needs beyond what the lab became.
+//! lab.toml as it is typed: what an audit needs beyond what the lab became.
 
 use toml::{Table, Value};
 
 use crate::lab::Lab;
 
 /// The file as a table; a lab that was loaded has one.
-pub(super) fn table(lab: &Lab) -> Option<Table> {
+pub(in crate::audit) fn table(lab: &Lab) -> Option<Table> {
     lab.source.text().parse().ok()
 }
 
 /// The tables of the list called `list`.
-pub(super) fn tables<'t>(table: &'t Table, list: &str) -> Vec<&'t Table> {
+pub(in crate::audit) fn tables<'t>(table: &'t Table, list: &str) -> Vec<&'t Table> {
     let items = table.get(list).and_then(Value::as_array);
     let items = items.into_iter().flatten();
     items.filter_map(Value::as_table).collect()
 }
 
 /// What a table says is its `name`; empty where it says none.
-pub(super) fn name(table: &Table) -> &str {
+pub(in crate::audit) fn name(table: &Table) -> &str {
     table
         .get("name")
         .and_then(Value::as_str)
@@ -25,13 +25,13 @@ pub(super) fn name(table: &Table) -> &str {
 }
 
 /// The table of this name in the list called `list`.
-pub(super) fn named<'t>(table: &'t Table, list: &str, wanted: &str) -> Option<&'t Table> {
+pub(in crate::audit) fn named<'t>(table: &'t Table, list: &str, wanted: &str) -> Option<&'t Table> {
     let mut all = tables(table, list).into_iter();
     all.find(|table| name(table) == wanted)
 }
 
 /// The kind of a check with its keys: its only table.
-pub(super) fn kind(check: &Table) -> Option<(&str, &Table)> {
+pub(in crate::audit) fn kind(check: &Table) -> Option<(&str, &Table)> {
     let mut entries = check.iter();
     entries.find_map(|(key, value)| Some((key.as_str(), value.as_table()?)))
 }
