@@ -147,10 +147,7 @@ impl AnswerMeasure for IkReach {
 }
 
 /// What the brief says of a band in which every target is judged, and of that of angles, where there is one.
-pub(super) fn of_every_target(
-    (full, zero): (String, String),
-    turned: Option<Band>,
-) -> [String; 2] {
+pub(super) fn of_every_target((full, zero): (String, String), turned: Option<Band>) -> [String; 2] {
     let of = |angle: fn(Band) -> f64, word: &str| {
         turned.map_or(String::new(), |band| format!(" {word} {} rad", angle(band)))
     };

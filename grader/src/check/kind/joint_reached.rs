@@ -165,13 +165,23 @@ mod tests {
     fn what_is_advised_is_what_control_commands() {
         for (mode, advice) in [
             ("position", "Return 3.1 for joint `elbow` from `control`"),
-            ("velocity", "Command a velocity that takes joint `elbow` to 3.1 rad"),
-            ("effort", "Command the effort that takes joint `elbow` to 3.1 rad"),
+            (
+                "velocity",
+                "Command a velocity that takes joint `elbow` to 3.1 rad",
+            ),
+            (
+                "effort",
+                "Command the effort that takes joint `elbow` to 3.1 rad",
+            ),
         ] {
             let motion = format!("mode = \"{mode}\"\nduration_s = 1.0");
             let kind = "joint-reached = { joint = \"elbow\", position_rad = 3.1, hold_s = 0.5, full_rad = 0.1, zero_rad = 1.0 }";
             let finding = judged(&motion, kind, |_| HandRow::default());
-            assert!(finding.next_step.starts_with(advice), "{}", finding.next_step);
+            assert!(
+                finding.next_step.starts_with(advice),
+                "{}",
+                finding.next_step
+            );
         }
     }
 
