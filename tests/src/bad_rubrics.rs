@@ -6,6 +6,7 @@ use kinemark_grader::task::files::Files;
 
 use crate::every_case::every_case;
 use crate::own_lab::OwnLab;
+use crate::testbed::{Folder, TestBed, root};
 
 const LAB: &str = r#"
 format = 1
@@ -197,6 +198,7 @@ fn rows(own: &OwnLab, brief: &str, accepted: &Accepted) -> Vec<Row> {
             reference: None,
             finer: None,
             mutants: &[],
+            moved_bodies: &[],
             margins: &[],
             corners: None,
         },
@@ -577,6 +579,27 @@ fn every_fault_is_found_with_its_place_and_numbers() {
         ),
         (
             "lab.toml",
+            "position_m = [2.5, \"= out\", 0.05], dwell_s = 0.5 }]",
+            "position_m = [3.99, 0.01, 0.05], dwell_s = 0.5 }]",
+            "goals",
+            "touch/goal 1: the arm starts 14.1 mm from it, and check `pose` gives points up to 20.0 mm",
+        ),
+        (
+            "hidden.toml",
+            "out = [1.05, 1.25]",
+            "out = [3.9, 3.95]",
+            "reach",
+            "touch/goal 1 in class \"another place\": [2.5, 3.9",
+        ),
+        (
+            "lab.toml",
+            "robot = \"rrbot\"",
+            "robot = \"rrbot\"\nkept_after_stop = 0.08",
+            "settings",
+            "kept_after_stop: who stops once",
+        ),
+        (
+            "lab.toml",
             "title = \"In time\"",
             "title = \"There\"",
             "cases",
@@ -660,7 +683,24 @@ fn words_of_the_brief_are_held_to_what_is_graded() {
         ),
         (
             "The run takes 8 s.",
-            Some("brief: it says a run of 8 s, and in lab.toml runs take 3 s and 1 s"),
+            Some("brief: it says a time of 8 s, and in lab.toml runs take 3 s and 1 s"),
+        ),
+        (
+            "At the place, stay for 0.2 s.",
+            Some("brief: it says a time of 0.2 s"),
+        ),
+        ("At the place, stay for 0.5 s.", None),
+        (
+            "| `control(observation)` | every 10 ms | setpoints in degrees |",
+            Some("control: the brief says that `control` returns something in degrees"),
+        ),
+        (
+            "| the shoulder above the ground | `robot.base_height` | 1.5 m |",
+            Some("robot.base_height: the brief says 1.5 m, and the robot has 2 m"),
+        ),
+        (
+            "| the arm | `robot.link_lengths[0]`, `robot.link_lengths[1]` | 1 m, 100 cm |",
+            None,
         ),
         ("The run takes 3 s.", None),
         (
@@ -698,6 +738,12 @@ fn words_of_the_brief_are_held_to_what_is_graded() {
 fn what_the_brief_calls_by_another_name_or_number_is_doubted() {
     let goals_alone = own_lab().with("lab.toml", "target = { effort_n_m = 2.0 }\n", "");
     let texts = [
+        (
+            own_lab(),
+            format!("{BRIEF}It is called as `inverse_kinematics(position, robot)`.\n"),
+            "names",
+            "brief: it says `inverse_kinematics(position, robot)`, and the function is called as `inverse_kinematics(robot, position)`",
+        ),
         (
             own_lab(),
             format!("{BRIEF}Read `observation.torque`.\n"),
@@ -1017,6 +1063,7 @@ fn found_by(rule: &str, own: &OwnLab) -> Vec<String> {
         reference: reference.as_ref(),
         finer: None,
         mutants: &[],
+        moved_bodies: &form.moved_bodies(),
         margins: &[],
         corners: Some(&corners),
     };
@@ -1164,6 +1211,55 @@ fn two_mutants_with_one_text_are_doubted() {
         .and("mutants/other.rhai", format!("\n{text}"));
     let found = found_by("cases", &own);
     assert_eq!(found, ["mutant other: its file is that of mutant `one`"]);
+}
+
+#[test]
+fn two_mutants_that_say_what_the_other_does_are_doubted() {
+    let mutants = |first: &str, second: &str| {
+        format!(
+            "format = 1\n[[mutants]]\nname = \"sign-of-the-shoulder\"\ntasks = [\"go\"]\nsays = \"{first}\"\n\
+             [[mutants]]\nname = \"elbow-frozen\"\ntasks = [\"go\"]\nsays = \"{second}\"\n"
+        )
+    };
+    let [shoulder, elbow] = ["The shoulder has the wrong sign.", "The elbow is frozen."];
+    for (first, second, count) in [(shoulder, elbow, 0), (elbow, shoulder, 1)] {
+        let own = motion_lab()
+            .and("mutants.toml", mutants(first, second))
+            .and(
+                "mutants/sign-of-the-shoulder.rhai",
+                "fn control(observation) { [-0.5, 0.4] }\n",
+            )
+            .and(
+                "mutants/elbow-frozen.rhai",
+                "fn control(observation) { [0.5, 0.0] }\n",
+            );
+        let found = found_by("words", &own);
+        assert_eq!(found.len(), count, "{found:#?}");
+    }
+}
+
+/// A can that stands in the air falls on the shelf when the run begins.
+#[test]
+fn a_body_that_moves_by_itself_is_found() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let place = "\"shelf_height + can_height / 2\"] }";
+    bed.edit(
+        "labs/scenes/shelf-and-can.toml",
+        place,
+        "\"shelf_height + can_height / 2 + 0.05\"] }",
+    );
+    for (folder, expected) in [(root(), 0), (bed.path(""), 1)] {
+        let lab = Lab::load(&Folder(folder.join("labs")), "03-knock-with-position").expect("a lab");
+        let staff = Staff::load(&Folder(folder.join("reference")), &lab, None);
+        let staff = staff.expect("a staff's part").expect("a solution");
+        let moved = Form::new(&lab, &staff).moved_bodies();
+        assert_eq!(moved.len(), expected, "{moved:?}");
+        let far = moved
+            .iter()
+            .all(|body| body.body == "can" && body.moved_m > 0.04);
+        assert!(far, "{moved:?}");
+    }
 }
 
 #[test]

@@ -4,7 +4,7 @@
 use kinemark_sim::text::Source;
 
 use super::Row;
-use crate::judge::{Examined, StaffAttempts, examined};
+use crate::judge::{Examined, MovedBody, StaffAttempts, examined};
 use crate::lab::Lab;
 use crate::lab::staff::Staff;
 use crate::record::grade::Grade;
@@ -68,6 +68,11 @@ impl<'a> Form<'a> {
     /// that have hidden runs; `None` where there are none.
     pub fn played_back(&self) -> Option<Grade> {
         crate::judge::played_back(self.lab, self.staff, &self.known)
+    }
+
+    /// Bodies of the lab's scenes that fall or slide while the arm stands still.
+    pub fn moved_bodies(&self) -> Vec<MovedBody> {
+        crate::judge::moved_bodies(self.lab)
     }
 
     /// The grade of the reference solution where every motion task is simulated with half the physics step, in visible cases and runs;

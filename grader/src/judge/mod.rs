@@ -27,6 +27,7 @@ mod single_case;
 mod solution_end;
 mod staff_attempts;
 pub(crate) mod staff_faults;
+mod standing;
 
 pub use expected::{answers_of, with_expected};
 pub use explanation::explain;
@@ -38,3 +39,5 @@ pub(crate) use playback::played_back;
 pub use practice_form::{NoPractice, practice};
 pub(crate) use solution_end::{SolutionEnd, solution_end};
 pub(crate) use staff_attempts::StaffAttempts;
+pub use standing::MovedBody;
+pub(crate) use standing::moved_bodies;

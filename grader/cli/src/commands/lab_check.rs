@@ -241,6 +241,7 @@ fn audit_rubric(
 ) -> Result<(), Failure> {
     let salt = Staff::salt(reference, &lab.name, None)?;
     let margins = audit.rooms.clone();
+    let moved_bodies = Form::new(lab, staff).moved_bodies();
     let known_salts = known_salts(reference, lab);
     let rubric = Rubric {
         lab,
@@ -254,6 +255,7 @@ fn audit_rubric(
         reference: graded.reference.as_ref(),
         finer: graded.finer.as_ref(),
         mutants: &graded.mutants,
+        moved_bodies: &moved_bodies,
         margins: &margins,
         corners: graded.corners.as_ref(),
     };

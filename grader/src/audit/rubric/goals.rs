@@ -5,9 +5,10 @@ use toml::Table;
 
 use super::{Doubt, Rubric};
 use crate::audit::typed;
-use crate::lab::{Task, TaskWork};
+use crate::lab::{Lab, Task, TaskWork};
 use crate::record::quantity::with_unit;
 use crate::task::model::{Band, MotionTask};
+use crate::task::tcp::tcp_in;
 use crate::task::value::Value;
 use crate::task::watched::PathToFollow;
 
@@ -31,6 +32,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             let (band, _) = check.kind.band()?;
             (kind == "pose-reached").then_some((check.name.as_str(), band))
         });
+        doubts.extend(reached.and_then(|check| near_start(rubric.lab, task, motion, check)));
         doubts.extend(reached.and_then(|check| near_goals(task, motion, check)));
         doubts.extend(short_stays(task, motion, &checks));
         doubts.extend(other_target(task, motion));
@@ -65,6 +67,30 @@ fn near_goals(task: &Task, motion: &MotionTask, (check, band): (&str, Band)) -> 
         ),
         "narrow the band, or move the goals apart",
     ))
+}
+
+/// A first goal at which the arm starts: who never moves earns something.
+fn near_start(
+    lab: &Lab,
+    task: &Task,
+    motion: &MotionTask,
+    (check, band): (&str, Band),
+) -> Option<Doubt> {
+    let goal = motion.goals.first()?;
+    let lab = lab.of_task(task);
+    let start = tcp_in(&lab.robot, &lab.frame, &motion.start_q)?;
+    let apart_m = (goal.position_m - start).norm();
+    (goal.orientation.is_none() && apart_m < band.zero).then(|| {
+        doubt(
+            format!("{}/goal 1", task.name),
+            format!(
+                "the arm starts {} from it, and check `{check}` gives points up to {}: who never moves earns some",
+                with_unit(apart_m, "m"),
+                with_unit(band.zero, "m")
+            ),
+            "let the arm start elsewhere, or move the goal",
+        )
+    })
 }
 
 /// Goals and bodies that count as held in a moment.

@@ -16,6 +16,7 @@
 //! | `brief` | what is graded and not mentioned |
 //! | `words` | words and numbers of the brief and of checks that differ from what is graded |
 //! | `times` | times of runs and calls that the brief says, and lab.toml does not |
+//! | `mutant_words` | mutants that say what another does |
 //! | `names` | names in texts that nothing has, and what still says TODO |
 //! | `twice` | cases, checks, tasks and mutants that are there twice |
 //! | `lost` | checks that nobody loses, and checks that are earned for nothing |
@@ -31,6 +32,7 @@ mod far_draws;
 mod goals;
 mod hidden;
 mod lost;
+mod mutant_words;
 mod names;
 mod reach;
 mod related_bands;
@@ -49,6 +51,7 @@ use self::lost::Losses;
 pub use self::lost::zeros;
 use super::mutate::{Mutation, MutationProblem, covers, mutations, no_mutation};
 use super::{Audit, Problem, Tried, VariantMargin, Variants};
+use crate::judge::MovedBody;
 use crate::lab::{Lab, Staff, Task};
 use crate::record::grade::{Grade, TaskGrade};
 
@@ -90,6 +93,8 @@ pub struct Rubric<'a> {
     pub finer: Option<&'a Grade>,
     /// The grades of the mutants, each in its own tasks.
     pub mutants: &'a [Grade],
+    /// The bodies of its scenes that move by themselves.
+    pub moved_bodies: &'a [MovedBody],
     /// The margins of the reference solution over the variants that were tried.
     pub margins: &'a [VariantMargin],
     /// What the reference solution does at the ends of what students draw.
@@ -103,8 +108,11 @@ type Rule = (&'static str, &'static str, fn(&Rubric<'_>, &mut Vec<Doubt>));
 const RULES: &[Rule] = &[
     (
         "settings",
-        "the robot has a TCP, gains do something",
-        settings::rule,
+        "the robot has a TCP, gains do something, bodies stay",
+        |rubric, doubts| {
+            settings::rule(rubric, doubts);
+            settings::bodies(rubric, doubts);
+        },
     ),
     (
         "variants",
@@ -165,6 +173,7 @@ const RULES: &[Rule] = &[
         "words and numbers say what is graded",
         |rubric, doubts| {
             words::rule(rubric, doubts);
+            mutant_words::rule(rubric, doubts);
             times::rule(rubric, doubts);
         },
     ),

@@ -66,6 +66,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                     .to_owned(),
             });
         }
+        doubts.extend(swapped_arguments(rubric, &place, text));
         for (owner, names) in known.by_owner() {
             let missing = members(text, owner).find(|name| !names.contains(*name));
             if let Some(name) = missing {
@@ -79,6 +80,38 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             }
         }
     }
+}
+
+/// A call of a task's function whose arguments stand in another order than they are given.
+fn swapped_arguments(rubric: &Rubric<'_>, place: &str, text: &str) -> Option<Doubt> {
+    let code = parts(text).0;
+    rubric.lab.tasks.iter().find_map(|task| {
+        let TaskWork::Function(function, _) = &task.work else {
+            return None;
+        };
+        let (name, parameters) = (function.name(), function.parameters());
+        let is_other_order = |given: &Vec<&str>| {
+            let mut sorted = [given.clone(), parameters.clone()];
+            sorted.iter_mut().for_each(|names| names.sort_unstable());
+            sorted[0] == sorted[1] && *given != parameters
+        };
+        let given = code.iter().find_map(|code| {
+            let (_, rest) = code.split_once(&format!("{name}("))?;
+            let (inside, _) = rest.split_once(')')?;
+            let given: Vec<&str> = inside.split(',').map(str::trim).collect();
+            is_other_order(&given).then_some(given)
+        })?;
+        Some(Doubt {
+            rule: "names",
+            of: place.to_owned(),
+            what: format!(
+                "it says `{name}({})`, and the function is called as `{name}({})`",
+                given.join(", "),
+                parameters.join(", ")
+            ),
+            help: "write the arguments in the order in which they are given".to_owned(),
+        })
+    })
 }
 
 /// The texts that students read, each with its place.

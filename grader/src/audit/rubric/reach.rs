@@ -42,11 +42,35 @@ pub(super) fn reach(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             TaskWork::Motion(motion, _) => of_motion(lab, task, motion, doubts),
         }
     }
+    of_hidden_runs(lab, staff, doubts);
     for (task, case) in hidden_cases(lab, staff) {
         if let Some(doubt) = angles_within_limits(lab, task, case)
             && !doubts.contains(&doubt)
         {
             doubts.push(doubt);
+        }
+    }
+}
+
+/// The same in hidden runs, for what is not doubted in the visible one.
+fn of_hidden_runs(lab: &Lab, staff: &Staff, doubts: &mut Vec<Doubt>) {
+    for task in &lab.tasks {
+        for run in staff.runs(&task.name) {
+            let mut tasks = run.lab.tasks.iter();
+            let drawn = tasks.find(|drawn| drawn.name == task.name);
+            let Some((drawn, TaskWork::Motion(motion, _))) = drawn.map(|task| (task, &task.work))
+            else {
+                continue;
+            };
+            let mut found = Vec::new();
+            of_motion(&run.lab, drawn, motion, &mut found);
+            for doubt in found {
+                let of = format!("{} in class \"{}\"", doubt.of, run.class);
+                let is_known = |known: &Doubt| known.of == doubt.of || known.of == of;
+                if !doubts.iter().any(is_known) {
+                    doubts.push(Doubt { of, ..doubt });
+                }
+            }
         }
     }
 }

@@ -7,6 +7,8 @@ use crate::audit::typed;
 
 /// A band that is wider than its sibling's by this factor was typed in another unit.
 const WIDER: f64 = 3.0;
+/// A body that was put down stands upright to about a degree.
+const LEAST_TILT_DEG: f64 = 1.0;
 /// Who followed less than this share of a path has not followed it.
 const LEAST_COVERAGE: f64 = 0.5;
 
@@ -29,6 +31,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             doubts.extend(wider_branches(check, &checks));
             doubts.extend(little_coverage(check));
             doubts.extend(wide_gate(check, &checks));
+            doubts.extend(narrow_tilt(check));
         }
     }
 }
@@ -93,6 +96,19 @@ fn little_coverage(check: &Typed<'_>) -> Option<Doubt> {
             "raise `full`: it is a share, 1 for the whole path",
         )
     })
+}
+
+/// An angle that is to be met by less than a hand can.
+fn narrow_tilt(check: &Typed<'_>) -> Option<Doubt> {
+    let keys = ["upright_deg", "turned_within_deg"].into_iter();
+    let (key, angle_deg) = keys
+        .filter_map(|key| Some((key, check.number(key)?)))
+        .find(|(_, angle_deg)| *angle_deg < LEAST_TILT_DEG)?;
+    Some(doubt(
+        check,
+        format!("`{key}` is {angle_deg} degrees, less than any body stands still by"),
+        "is the number in degrees? A few of them are usual",
+    ))
 }
 
 /// A path that counts as covered from farther away than anything near it earns a point.

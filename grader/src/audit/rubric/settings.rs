@@ -1,12 +1,13 @@
 //! Settings of the robot and of the servo that do nothing, or not what one may think.
 
 use kinemark_sim::control::Mode;
-use kinemark_sim::text::number::list;
+use kinemark_sim::text::number::{list, metres};
 use toml::{Table, Value};
 
 use super::{Doubt, Rubric};
 use crate::audit::typed;
 use crate::lab::{Lab, TaskWork};
+use crate::record::quantity::with_unit;
 use crate::task::model::MotionTask;
 use crate::task::value::Value as Given;
 
@@ -73,6 +74,36 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         }
     }
 }
+
+/// Bodies that move before anybody touches them.
+pub(super) fn bodies(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    for moved in rubric.moved_bodies {
+        doubts.push(Doubt {
+            rule: "settings",
+            of: format!("{}/{}", moved.task, moved.body),
+            what: format!(
+                "while the arm stands still, the body moves by {} in the first second",
+                metres(moved.moved_m)
+            ),
+            help: "let it stand on what is below it: compare its place with that body's upper face"
+                .to_owned(),
+        });
+    }
+    if rubric.lab.kept_after_stop < LEAST_KEPT {
+        doubts.push(Doubt {
+            rule: "settings",
+            of: "kept_after_stop".to_owned(),
+            what: format!(
+                "who stops once, in one call of thousands, keeps {} of what was earned until then",
+                with_unit(rubric.lab.kept_after_stop, "")
+            ),
+            help: "write a share such as 0.8, or leave `kept_after_stop` out".to_owned(),
+        });
+    }
+}
+
+/// Who is stopped in one call should keep at least this share of the points.
+const LEAST_KEPT: f64 = 0.5;
 
 /// A limit of the servo above that of the robot's joint, which holds.
 fn above_robot(lab: &Lab, task: &str, typed: &Table) -> Option<Doubt> {

@@ -35,7 +35,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     for sentence in sentences(brief) {
         let words: Vec<&str> = sentence.split_whitespace().collect();
         let stated = [
-            (duration_s(&words), "a run of", "runs take", &durations),
+            (duration_s(&words), "a time of", "runs take", &durations),
             (
                 period_s(&words),
                 "a call every",
@@ -119,8 +119,10 @@ fn sentences(brief: &str) -> impl Iterator<Item = &str> {
 /// The one time in a sentence about how long a run is.
 fn duration_s(words: &[&str]) -> Option<f64> {
     let has = |wanted: &[&str]| words.iter().any(|word| wanted.contains(&bare(word)));
-    let is_about =
+    let is_of_run =
         has(&["run", "runs"]) && has(&["takes", "take", "lasts", "last", "long", "ends", "end"]);
+    // how long to stay is known from goals and bodies
+    let is_about = is_of_run || has(&["stay", "stays", "within"]);
     let mut times = times(words);
     let (Some((_, time_s)), None) = (times.next(), times.next()) else {
         return None;
@@ -186,6 +188,8 @@ mod tests {
             ("each run is **2.5** seconds long", Some(2.5)),
             ("the run lasts 8 s, of which 2 s count", None),
             ("The run ends at 12 s", Some(12.0)),
+            ("stay there for 0.5 s", Some(0.5)),
+            ("be there within 8 s", Some(8.0)),
             ("hold it for 0.5 s", None),
             ("the run takes long", None),
         ] {

@@ -17,6 +17,8 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         of_budgets(rubric.lab, brief, doubts);
         of_variants(rubric.lab, brief, doubts);
         of_comments(rubric.lab, brief, doubts);
+        of_sizes(rubric.lab, brief, doubts);
+        of_commands(rubric.lab, brief, doubts);
     }
     let Some(table) = typed::table(rubric.lab) else {
         return;
@@ -32,6 +34,92 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
 }
 
+/// A row of a table that names dimensions of the robot, and gives other numbers for them.
+fn of_sizes(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
+    let rows = brief
+        .lines()
+        .filter(|line| line.trim_start().starts_with('|'));
+    for row in rows {
+        let keys: Vec<&str> = row
+            .split('`')
+            .skip(1)
+            .step_by(2)
+            .filter_map(|code| code.strip_prefix("robot."))
+            .collect();
+        let values: Option<Vec<f64>> = keys.iter().map(|key| size_of(lab, key)).collect();
+        let cell = row.trim().trim_end_matches('|').rsplit('|').next();
+        let (Some(values), Some(cell)) = (values, cell) else {
+            continue;
+        };
+        // what a mark computes is right
+        if cell.contains("<!--") || cell.contains('`') || values.is_empty() {
+            continue;
+        }
+        let words: Vec<&str> = cell.split_whitespace().collect();
+        let stated: Vec<f64> = words
+            .windows(2)
+            .filter_map(|pair| {
+                let scale = match pair[1].trim_matches(',') {
+                    "m" => 1.0,
+                    "cm" => 1e-2,
+                    "mm" => 1e-3,
+                    _ => return None,
+                };
+                Some(scale * pair[0].parse::<f64>().ok()?)
+            })
+            .collect();
+        if stated.len() != values.len() {
+            continue;
+        }
+        let pairs = keys.iter().zip(values).zip(stated);
+        for ((key, value), stated) in pairs {
+            if (value - stated).abs() > 1e-6 * value.abs().max(1e-3) {
+                doubts.push(doubt(
+                    format!("robot.{key}"),
+                    format!("the brief says {stated} m, and the robot has {value} m"),
+                    "write the robot's number in the brief",
+                ));
+            }
+        }
+    }
+}
+
+/// The size that a submission reads as `robot.KEY` or `robot.KEY[INDEX]`.
+fn size_of(lab: &Lab, key: &str) -> Option<f64> {
+    let (name, index) = match key.split_once('[') {
+        Some((name, rest)) => (name, rest.strip_suffix(']')?.parse::<usize>().ok()?),
+        None => (key, 0),
+    };
+    match lab.robot.dimensions().get(name)? {
+        Dimension::Number(number) => Some(*number),
+        Dimension::List(numbers) if key.contains('[') => numbers.get(index).copied(),
+        Dimension::List(_) | Dimension::Text(_) => None,
+    }
+}
+
+/// A row or line that says what `control` returns in another unit than any command has.
+fn of_commands(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
+    let has_motion = lab
+        .tasks
+        .iter()
+        .any(|task| matches!(task.work, TaskWork::Motion(..)));
+    let line = brief
+        .lines()
+        .find(|line| line.contains("`control(") && !line.contains("not "));
+    let wrong = ["degrees", "deg", "deg/s", "rpm"];
+    let said = line.and_then(|line| {
+        let mut words = line.split(|c: char| c.is_whitespace() || "|,;()".contains(c));
+        words.find(|word| wrong.contains(word))
+    });
+    if let Some(said) = said.filter(|_| has_motion) {
+        doubts.push(doubt(
+            "control".to_owned(),
+            format!("the brief says that `control` returns something in {said}, and commands are in rad, rad/s, m, m/s, N m or N"),
+            "write the unit of the mode of the servo",
+        ));
+    }
+}
+
 /// Words that exclude each other.
 const OPPOSITES: [[&str; 2]; 4] = [
     ["near", "far"],
@@ -39,6 +127,9 @@ const OPPOSITES: [[&str; 2]; 4] = [
     ["front", "back"],
     ["above", "below"],
 ];
+
+/// Words of a moment at which something is touched.
+const TOUCHES: [&str; 6] = ["touch", "touches", "touched", "push", "pushed", "hits"];
 
 /// A check whose title says the opposite of one of its keys, such as `side = "near"`.
 fn of_sides(table: &Table, doubts: &mut Vec<Doubt>) {
@@ -51,6 +142,16 @@ fn of_sides(table: &Table, doubts: &mut Vec<Doubt>) {
             let Some((_, keys)) = typed::kind(check) else {
                 continue;
             };
+            let is_of_touch = TOUCHES.iter().any(|word| has_word(title, word));
+            if is_of_touch && keys.get("at").and_then(Toml::as_str) == Some("run") {
+                doubts.push(doubt(
+                    format!("{}/{}", typed::name(task), typed::name(check)),
+                    format!(
+                        "\"{title}\" is about a touch, and at = \"run\" looks at the whole run"
+                    ),
+                    "write at = \"touch\", or another title",
+                ));
+            }
             let said = keys.iter().find_map(|(key, value)| {
                 let value = value.as_str()?;
                 let pair = OPPOSITES.iter().find(|pair| pair.contains(&value))?;
@@ -419,6 +520,18 @@ mod tests {
             let mut doubts = Vec::new();
             of_sides(&table(title), &mut doubts);
             assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
+        }
+    }
+
+    #[test]
+    fn a_title_of_a_touch_with_a_check_of_the_whole_run_is_found() {
+        for (at, count) in [("run", 1), ("touch", 0)] {
+            let text = format!(
+                "[[tasks]]\nname = \"t\"\n[[tasks.checks]]\nname = \"c\"\ntitle = \"The can is pushed\"\ntcp-speed = {{ at = \"{at}\" }}\n"
+            );
+            let mut doubts = Vec::new();
+            of_sides(&text.parse::<Table>().expect("TOML"), &mut doubts);
+            assert_eq!(doubts.len(), count, "{at}: {doubts:?}");
         }
     }
 
