@@ -124,7 +124,7 @@ fn wide_gate(check: &Typed<'_>, checks: &[Typed<'_>]) -> Option<Doubt> {
         doubt(
             check,
             format!("what is within {within_m} m of the path counts, and at {zero_m} m nothing is earned for its deviation"),
-            "let `within_m` be of the size of the deviation that still earns something",
+            "let `within_m` be of the size of the deviation that still earns points",
         )
     })
 }
