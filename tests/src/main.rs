@@ -40,6 +40,7 @@ mod free_function_task;
 mod function_length;
 mod golden;
 mod grade;
+mod graded_rubrics;
 mod gradescope;
 mod grants;
 mod handed_in;

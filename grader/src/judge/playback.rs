@@ -80,9 +80,17 @@ impl Controller for Recording {
     }
 }
 
-/// Opens the commands of each task, whatever the submission.
+/// Opens the commands of each task, whatever the submission; the last one is given for ever.
 #[derive(Default)]
-struct Player(BTreeMap<String, Commands>);
+pub(super) struct Player(BTreeMap<String, Commands>);
+
+impl Player {
+    /// Of these commands in one task.
+    pub(super) fn of(task: &str, commands: Vec<Value>) -> Self {
+        let commands = Arc::new(Mutex::new(commands));
+        Self(BTreeMap::from([(task.to_owned(), commands)]))
+    }
+}
 
 impl Host for Player {
     fn open(&mut self, opening: &Opening) -> Result<Box<dyn Controller>, Box<Failed>> {
@@ -106,7 +114,6 @@ impl Controller for Playing {
         let mut value = Value::Nothing;
         if matches!(call, Call::Control(_)) {
             let commands = locked(&self.commands);
-            // a longer run ends as the visible one does
             let command = commands.get(self.next).or_else(|| commands.last());
             value = command.cloned().unwrap_or(Value::Nothing);
             self.next += 1;

@@ -4,12 +4,11 @@ use kinemark_sim::control::Mode;
 use kinemark_sim::model::contact::Party;
 use kinemark_sim::text::Source;
 
+use super::opening::opening;
+use super::playback::Player;
 use crate::attempt::motion;
-use crate::judge::opening;
 use crate::lab::{Lab, Task, TaskWork};
-use crate::submission::controller::{Answer, Call, Controller, Failed, Opening, Said, Stop};
 use crate::submission::handed_in::Submission;
-use crate::submission::host::Host;
 use crate::task::value::Value;
 
 /// How long the arm stands still \[s\].
@@ -60,7 +59,8 @@ fn moved_in(lab: &Lab, task: &Task) -> Vec<MovedBody> {
     let command = command.into_iter().map(Value::Number).collect();
     let opening = opening(lab, task, &submission);
     let cell = lab.of_task(task).workcell();
-    let run = motion::run(cell, &short, &opening, &mut Still(command));
+    let mut player = Player::of(&task.name, vec![Value::List(command)]);
+    let run = motion::run(cell, &short, &opening, &mut player);
     let trace = &run.recorded;
     let Some(last) = trace.len().checked_sub(1) else {
         return Vec::new();
@@ -87,33 +87,4 @@ fn moved_in(lab: &Lab, task: &Task) -> Vec<MovedBody> {
             }
         });
     moved.filter(|body| body.moved_m > SETTLES_M).collect()
-}
-
-/// Opens a submission that gives one command.
-struct Still(Vec<Value>);
-
-impl Host for Still {
-    fn open(&mut self, _: &Opening) -> Result<Box<dyn Controller>, Box<Failed>> {
-        Ok(Box::new(Standing(Value::List(self.0.clone()))))
-    }
-}
-
-struct Standing(Value);
-
-impl Controller for Standing {
-    fn call(&mut self, call: &Call) -> Result<Answer, Stop> {
-        let value = match call {
-            Call::Control(_) => self.0.clone(),
-            _ => Value::Nothing,
-        };
-        Ok(Answer {
-            value,
-            said: Said::default(),
-            operations: 0,
-        })
-    }
-
-    fn unanswered(&mut self) -> Said {
-        Said::default()
-    }
 }

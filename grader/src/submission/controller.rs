@@ -230,6 +230,18 @@ pub struct Observation {
     pub sensors: Vec<f64>,
 }
 
+/// The keys of `observation` that differ from call to call, besides `sensors`; `task` and `target` are the same in all of them.
+pub(crate) const MEASURED: [&str; 8] = [
+    "tick",
+    "time",
+    "dt",
+    "q",
+    "qd",
+    "effort",
+    "tcp",
+    "tcp_rotation",
+];
+
 /// The facts about a sensor for a submission.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SensorFacts {

@@ -58,8 +58,8 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
 }
 
-/// A gain of a servo, by its key.
-type Gain = (&'static str, fn(&Gains) -> f64);
+/// A gain of a servo, by its key, with the unit by which a brief speaks of it without the key.
+type Gain = (&'static str, &'static str, fn(&Gains) -> f64);
 
 /// Gains of servos that the brief speaks of, and gives another number for.
 pub(super) fn gains(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
@@ -70,16 +70,20 @@ pub(super) fn gains(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         .split(|c: char| !(c.is_ascii_digit() || c == '.'))
         .filter_map(|part| part.trim_end_matches('.').parse().ok())
         .collect();
-    let kinds: [Gain; 2] = [("kp", |gains| gains.kp), ("kd", |gains| gains.kd)];
+    let kinds: [Gain; 2] = [
+        ("kp", "N m/rad", |gains| gains.kp),
+        ("kd", "N m s/rad", |gains| gains.kd),
+    ];
     for task in &rubric.lab.tasks {
         let TaskWork::Motion(motion, _) = &task.work else {
             continue;
         };
         // gains do nothing in mode `effort`
+        let has_gains = motion.servo.mode != Mode::Effort;
         let kinds = kinds
             .iter()
-            .filter(|(key, _)| motion.servo.mode != Mode::Effort && mentions(brief, key));
-        for (key, gain) in kinds {
+            .filter(|(key, unit, _)| has_gains && (mentions(brief, key) || brief.contains(unit)));
+        for (key, _, gain) in kinds {
             let mut gains = motion.servo.gains.iter().map(gain);
             let is_missing = |gain: &f64| {
                 gain.abs() > 0.0
@@ -91,7 +95,7 @@ pub(super) fn gains(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                 doubts.push(Doubt {
                     rule: "brief",
                     of: format!("{}/{key}", task.name),
-                    what: format!("the servo has {key} = {gain}, and the brief, which speaks of `{key}`, has no such number"),
+                    what: format!("the servo has {key} = {gain}, and the brief, which speaks of such gains, has no such number"),
                     help: "write the gains of this task in the brief, with a mark where they differ from student to student"
                         .to_owned(),
                 });

@@ -5,25 +5,13 @@ use std::collections::BTreeSet;
 
 use super::{Doubt, Rubric};
 use crate::lab::{Task, TaskWork};
-use crate::submission::controller::Grant;
+use crate::submission::controller::{Grant, MEASURED};
 use crate::task::value::Value;
 
 /// What a lab has not decided yet.
 const TODO: &str = "TODO";
-/// What `observation` has.
-const OBSERVED: [&str; 11] = [
-    "task",
-    "target",
-    "sensors",
-    "tick",
-    "time",
-    "dt",
-    "q",
-    "qd",
-    "effort",
-    "tcp",
-    "tcp_rotation",
-];
+/// What `observation` has besides what is measured.
+const GIVEN: [&str; 3] = ["task", "target", "sensors"];
 /// What `robot` has besides its dimensions.
 const OF_EVERY_ROBOT: [&str; 6] = ["name", "joints", "joint_names", "lower", "upper", "effort"];
 
@@ -45,13 +33,17 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                 help: "write what is missing there: students read it".to_owned(),
             });
         }
-        let observed = members(text, "observation");
-        if let Some(name) = observed.into_iter().find(|name| !OBSERVED.contains(name)) {
+        let mut observed = members(text, "observation");
+        let is_there = |name: &&str| GIVEN.contains(name) || MEASURED.contains(name);
+        if let Some(name) = observed.find(|name| !is_there(name)) {
             doubts.push(Doubt {
                 rule: "names",
                 of: place.clone(),
                 what: format!("it mentions `observation.{name}`, which there is not"),
-                help: format!("`observation` has {}", OBSERVED.join(", ")),
+                help: format!(
+                    "`observation` has {}",
+                    [&GIVEN[..], &MEASURED].concat().join(", ")
+                ),
             });
         }
         let of_list = members(text, "observation.target").next();

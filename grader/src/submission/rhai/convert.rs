@@ -7,7 +7,7 @@ use super::mistake::Problem;
 use super::vector::{Matrix, Vector};
 use super::words::kind;
 use crate::submission::controller::{
-    Budget, Observation, Opening, Reads, RobotFacts, SensorFacts, Value,
+    Budget, MEASURED, Observation, Opening, Reads, RobotFacts, SensorFacts, Value,
 };
 
 /// The return value of a function, with at most a list's budget of values in all.
@@ -149,16 +149,7 @@ pub(super) fn observation_template(opening: &Opening) -> Map {
     map.insert("task".into(), opening.task.as_str().into());
     map.insert("target".into(), to_dynamic(&opening.target));
     map.insert("sensors".into(), Dynamic::from_map(Map::new()));
-    for key in [
-        "tick",
-        "time",
-        "dt",
-        "q",
-        "qd",
-        "effort",
-        "tcp",
-        "tcp_rotation",
-    ] {
+    for key in MEASURED {
         map.insert(key.into(), Dynamic::UNIT);
     }
     map
