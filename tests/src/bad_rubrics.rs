@@ -634,6 +634,41 @@ fn every_fault_is_found_with_its_place_and_numbers() {
             "band",
             "touch/whole: what is within 0.2 m of the path counts, and at 0.03 m nothing is earned",
         ),
+        (
+            "lab.toml",
+            "title = \"There\"\npoints = 2.0",
+            "title = \"There\"\npoints = 20.0",
+            "points",
+            "touch/pose: 20 of 30 points, more than half of all",
+        ),
+        (
+            "lab.toml",
+            "title = \"There\"\npoints = 2.0",
+            "title = \"There\"\npoints = 0.02",
+            "points",
+            "touch/pose: 0.02 of 10.02 points, less than a hundredth of all",
+        ),
+        (
+            "lab.toml",
+            "title = \"In time\"",
+            "title = \"In 5 s\"",
+            "words",
+            "touch/time: \"In 5 s\" says 5 s, and the check has 2 s and 3 s",
+        ),
+        (
+            "lab.toml",
+            "title = \"There\"",
+            "title = \"There\"\nhints = [\"Is the TCP within 2 cm, in its best 0.5 s?\", \"It should be within 20 cm.\"]",
+            "words",
+            "touch/pose: a hint says 0.200 m, and the check has 20.0 mm",
+        ),
+        (
+            "lab.toml",
+            "full_m = 1e-4, zero_m = 5e-3",
+            "full_m = 1e-15, zero_m = 5e-3",
+            "band",
+            "fk/position: `full_m` is 0.000000000000001: two right ways",
+        ),
     ];
     let faults: Vec<_> = faults
         .iter()
@@ -648,6 +683,33 @@ fn every_fault_is_found_with_its_place_and_numbers() {
         let hit = |(name, problem): &(String, String)| name == rule && problem.contains(words);
         assert!(found.iter().any(hit), "{rule}, {words}: {found:#?}");
     });
+}
+
+/// An angle of a joint may be more than half a turn, an orientation cannot.
+#[test]
+fn an_orientation_that_loses_points_beyond_half_a_turn_alone_is_doubted() {
+    for (zero_rad, count) in [(5.0, 1), (3.0, 0)] {
+        let own = own_lab()
+            .with(
+                "lab.toml",
+                "call = \"forward_kinematics\"",
+                "call = \"forward_kinematics\"\npose = \"full\"",
+            )
+            .with(
+                "lab.toml",
+                "fk-error = { full_m = 1e-4, zero_m = 5e-3 }",
+                &format!("fk-orientation = {{ full_rad = 1e-4, zero_rad = {zero_rad:.1} }}"),
+            );
+        let found = problems(&rows(&own, BRIEF, &Accepted::default()));
+        let of_band: Vec<_> = found.iter().filter(|(rule, _)| rule == "band").collect();
+        assert_eq!(of_band.len(), count, "{found:#?}");
+        let words = "fk/position: no points from 5 rad on, and nothing is turned away by more than half a turn";
+        assert!(
+            of_band
+                .iter()
+                .all(|(_, problem)| problem.starts_with(words))
+        );
+    }
 }
 
 #[test]
@@ -702,6 +764,26 @@ fn words_of_the_brief_are_held_to_what_is_graded() {
             None,
         ),
         ("The run takes 3 s.", None),
+        (
+            "The motors give at most 80 N m at the shoulder.",
+            Some("effort_limit of shoulder: the brief says 80 N m, and the servo has 100 N m"),
+        ),
+        ("The motors give at most 100 N m at the shoulder.", None),
+        ("Gravity takes 80 N m at the shoulder.", None),
+        (
+            "It carries 3.7 kg.",
+            Some("3.7 kg: the brief says so, and neither a link, nor a body, nor lab.toml"),
+        ),
+        ("Each link has a mass of 0.5 kg.", None),
+        (
+            "The first and last 80 mm do not count.",
+            Some("trim_m: the brief says that the first and last 80.0 mm do not count"),
+        ),
+        ("The first and last 5 cm do not count.", None),
+        (
+            "Go to all three places.",
+            Some("goals: the brief says \"three places\", and tasks have 1"),
+        ),
         (
             "`control` is called every 7 ms.",
             Some("brief: it says a call every 0.007 s, and in lab.toml calls are every 0.01 s"),

@@ -305,3 +305,83 @@ fn a_body_that_moves_by_itself_is_found() {
         assert!(far, "{moved:?}");
     }
 }
+
+#[test]
+fn two_mutants_that_say_the_same_are_doubted() {
+    let mutants = |second: &str| {
+        format!(
+            "format = 1\n[[mutants]]\nname = \"one\"\ntasks = [\"go\"]\nsays = \"It stands still.\"\n\
+             [[mutants]]\nname = \"other\"\ntasks = [\"go\"]\nsays = \"{second}\"\n"
+        )
+    };
+    for (second, expected) in [
+        (
+            "It stands still.",
+            &["mutant other: it says what mutant `one` says"][..],
+        ),
+        ("It goes the wrong way.", &[]),
+    ] {
+        let own = motion_lab()
+            .and("mutants.toml", mutants(second))
+            .and(
+                "mutants/one.rhai",
+                "fn control(observation) { [0.0, 0.0] }\n",
+            )
+            .and(
+                "mutants/other.rhai",
+                "fn control(observation) { [-0.5, 0.4] }\n",
+            );
+        assert_eq!(found_by("cases", &own), expected);
+    }
+}
+
+#[test]
+fn a_target_called_as_a_body_is_where_the_body_is_at_the_ends_of_what_students_draw_too() {
+    let lab = |can_at: &str| {
+        motion_lab().with(
+            "lab.toml",
+            "target = { goal_rad",
+            &format!(
+                "scene = {{ name = \"shelf-and-can\", dimensions = {{ can_at = \"= 0.5 + out\" }} }}\n\
+                 target = {{ can = [{can_at}, 0.05, 1.25], goal_rad"
+            ),
+        )
+    };
+    assert_eq!(found_by("goals", &lab("\"= 0.5 + out\"")), [""; 0]);
+    let words = "go/can: students are given `can` at [1.03, 0.05, 1.25], and the body `can` stands at [1, 0.05, 1.25]";
+    assert_eq!(found_by("goals", &lab("1.03")), [words]);
+    // right with the lab's own numbers alone
+    let words = "go/can: with every number at the first of its range, students are given `can` at [1, 0.05, 1.25], and the body `can` stands \
+                 at [0.9, 0.05, 1.25]";
+    assert_eq!(found_by("goals", &lab("1.0")), [words]);
+}
+
+#[test]
+fn a_run_that_goes_on_for_long_is_doubted() {
+    let lab = |duration_s: f64| {
+        motion_lab()
+            .with(
+                "lab.toml",
+                "duration_s = 2.0",
+                &format!(
+                    "duration_s = {duration_s:.1}\ngoals = [{{ position_m = [1.26276, 0.05, 3.49919], dwell_s = 0.1 }}]"
+                ),
+            )
+            .with(
+                "lab.toml",
+                "[[tasks]]\nname = \"lever\"",
+                "[[tasks.checks]]\nname = \"pose\"\ntitle = \"There\"\npoints = 1.0\npose-reached = { full_m = 0.01, zero_m = 0.1 }\n\n\
+                 [[tasks.checks]]\nname = \"time\"\ntitle = \"In time\"\npoints = 1.0\nfinish-time = { full_s = 2.0, zero_s = 3.0 }\n\n\
+                 [[tasks]]\nname = \"lever\"",
+            )
+    };
+    assert_eq!(found_by("settings", &lab(4.0)), [""; 0]);
+    let found = found_by("settings", &lab(40.0));
+    assert!(
+        found.len() == 1
+            && found[0].starts_with(
+                "go/duration_s: the run takes 40 s, and the reference solution is done after "
+            ),
+        "{found:#?}"
+    );
+}

@@ -143,6 +143,26 @@ fn a_new_lab_has_no_problem_but_its_todos_and_none_of_those_once_they_are_done()
 }
 
 #[test]
+fn a_lab_that_is_moved_in_every_way_has_a_solution_from_the_beginning() {
+    let bed = TestBed::new();
+    let mut args = vec!["lab", "new", "12-moves"];
+    for task in ["effort:push", "motion:turn", "velocity:glide"] {
+        args.extend(["--task", task]);
+    }
+    let ran = bed.run(&args);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let found = problems(&bed, "12-moves");
+    let is_todo = |row: &&(String, String, String)| row.1 == "names" || row.0 == "mutants";
+    let rest: Vec<_> = found.iter().filter(|row| !is_todo(row)).collect();
+    assert!(rest.is_empty(), "{rest:#?}");
+
+    let ran = bed.run(&["lab", "new", "13-moves", "--task", "function:mass-matrix"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    let words = "a function of the lab's own cannot be called `mass_matrix`";
+    assert!(ran.stderr.contains(words), "{ran:?}");
+}
+
+#[test]
 fn a_lab_can_be_begun_with_every_robot_of_the_course() {
     let bed = TestBed::new();
     bed.copy_labs();

@@ -11,6 +11,7 @@ mod lost;
 mod mutants;
 pub mod mutate;
 mod practice_file;
+mod quantities;
 mod reference;
 mod row;
 mod rubric;

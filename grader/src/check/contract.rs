@@ -164,3 +164,50 @@ pub fn answer_band(checks: &[Check<dyn FunctionCheck>]) -> Band {
 pub fn path_band(checks: &[Check<dyn MotionCheck>], path: &str) -> Option<Band> {
     checks.iter().find_map(|check| check.kind.path_band(path))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A check that calls answers good or wrong by a band.
+    #[derive(Debug)]
+    struct By(Option<Band>);
+
+    impl FunctionCheck for By {
+        fn bounds(&self) -> [String; 2] {
+            [String::new(), String::new()]
+        }
+
+        fn judge(&self, _: &FunctionTask, _: &[CaseFacts<'_>]) -> Finding {
+            unreachable!("nothing is judged here")
+        }
+
+        fn answer_band(&self) -> Option<Band> {
+            self.0
+        }
+    }
+
+    #[test]
+    fn of_several_checks_the_strictest_says_which_answers_are_wrong() {
+        let check = |zero: Option<f64>| Check {
+            criterion: Criterion {
+                name: "check".to_owned(),
+                title: "Check".to_owned(),
+                points: 1.0,
+                needs: Vec::new(),
+                hints: Vec::new(),
+                bounds: [String::new(), String::new()],
+            },
+            kind: Arc::new(By(zero.map(|zero| Band { full: 1e-6, zero })))
+                as Arc<dyn FunctionCheck>,
+        };
+        let zero = |bands: &[Option<f64>]| {
+            let checks: Vec<_> = bands.iter().map(|zero| check(*zero)).collect();
+            answer_band(&checks).zero
+        };
+        // in whichever order they stand
+        assert_eq!(zero(&[Some(0.5), None, Some(1e-3)]), 1e-3);
+        assert_eq!(zero(&[Some(1e-3), Some(0.5)]), 1e-3);
+        assert_eq!(zero(&[None]), 1e-2, "where none has a band");
+    }
+}

@@ -27,7 +27,7 @@ use crate::output;
     kinemark lab new arm-lab --robot puma560 --task ik:where --task velocity --task function:gear-ratio\n  \
     kinemark lab new reach-lab --from 01-kinematics\n\n\
     Kinds of tasks: fk, ik, jacobian, tcp-velocity, tcp-acceleration, gravity, coriolis, torque, mass-matrix, function (of the lab's own), \
-    motion (by joint positions), velocity (by joint velocities). A name follows after a colon.\n\
+    motion (by joint positions), velocity (by joint velocities), effort (by joint efforts). A name follows after a colon.\n\
     --from copies a lab with the course staff's part: the copy has a name and a salt of its own, other numbers wherever the lab's \
     variants leave a choice, and the robot of --robot. Solutions of the labs that come with kinemark are public: change what is asked \
     for, too.\n\n\
@@ -256,6 +256,21 @@ fn plain_name<'n>(what: &str, name: &'n str) -> Result<&'n str, Failure> {
     ))
 }
 
+/// Names of functions that tasks of other kinds call, or that every submission may have.
+const RESERVED: [&str; 11] = [
+    "control",
+    "init",
+    "forward_kinematics",
+    "inverse_kinematics",
+    "jacobian",
+    "velocity",
+    "acceleration",
+    "torque",
+    "gravity",
+    "coriolis",
+    "mass_matrix",
+];
+
 /// The tasks as typed.
 fn tasks(typed: &[String]) -> Result<Vec<NewTask>, Failure> {
     let mut tasks: Vec<NewTask> = Vec::new();
@@ -277,6 +292,15 @@ fn tasks(typed: &[String]) -> Result<Vec<NewTask>, Failure> {
             return Err(Failure::usage(
                 format!("a function cannot be called `{name}`"),
                 "begin its name with a letter, such as --task function:gear-ratio",
+            ));
+        }
+        let function = name.replace('-', "_");
+        if *kind == NewTaskKind::Function && RESERVED.contains(&function.as_str()) {
+            return Err(Failure::usage(
+                format!(
+                    "a function of the lab's own cannot be called `{function}`: that is the name of another one"
+                ),
+                "choose another name, such as --task function:gear-ratio, or the kind of task that calls it: --task fk, ik, jacobian or motion",
             ));
         }
         if tasks.iter().any(|task| task.name == name) {

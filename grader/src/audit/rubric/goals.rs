@@ -1,5 +1,7 @@
-//! Goals of a run that a hand cannot tell apart, stays of a moment, and targets that are nearly the path that checks follow.
+//! Goals of a run that a hand cannot tell apart, stays of a moment, targets that are nearly the path that checks follow, and targets that are
+//! not where the body of their name is.
 
+use kinemark_sim::kinematics::forward_kinematics;
 use nalgebra::Vector3;
 use toml::Table;
 
@@ -11,7 +13,10 @@ use crate::task::model::{Band, MotionTask};
 use crate::task::tcp::tcp_in;
 use crate::task::value::Value;
 use crate::task::watched::PathToFollow;
+use kinemark_sim::text::number::list;
 
+/// Who is given a point of a body is given it to this \[m\].
+const BESIDE_M: f64 = 1e-3;
 /// A stay of fewer control periods is none: a hand that passes by is there as long.
 const SHORTEST_STAY: f64 = 3.0;
 
@@ -36,6 +41,35 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         doubts.extend(reached.and_then(|check| near_goals(task, motion, check)));
         doubts.extend(short_stays(task, motion, &checks));
         doubts.extend(other_target(task, motion));
+        doubts.extend(other_body(rubric.lab, task, motion));
+    }
+    at_corners(rubric.lab, doubts);
+}
+
+/// Targets that are right with the lab's own numbers, and not at the ends of what students draw: one of the two does not vary.
+fn at_corners(lab: &Lab, doubts: &mut Vec<Doubt>) {
+    // the first two have every number at an end
+    let corners = lab.corners().unwrap_or_default().into_iter().take(2);
+    for corner in corners {
+        let numbers: Vec<_> = corner
+            .variant
+            .parameters()
+            .map(|(name, value)| (name.to_owned(), value.clone()))
+            .collect();
+        // one that cannot be loaded is found where the solution is tried in it
+        let Ok(lab) = lab.with_parameters(&numbers) else {
+            continue;
+        };
+        for task in &lab.tasks {
+            let TaskWork::Motion(motion, _) = &task.work else {
+                continue;
+            };
+            let found = other_target(task, motion).or_else(|| other_body(&lab, task, motion));
+            if let Some(found) = found.filter(|found| doubts.iter().all(|d| d.of != found.of)) {
+                let what = format!("with {}, {}", corner.words, found.what);
+                doubts.push(Doubt { what, ..found });
+            }
+        }
     }
 }
 
@@ -120,6 +154,47 @@ fn short_stays(task: &Task, motion: &MotionTask, checks: &[&Table]) -> Vec<Doubt
         is_moment(stay_s).then(|| said(of, "hold_s", stay_s))
     });
     goals.take(1).chain(held).collect()
+}
+
+/// A point in the target that is called as a body of the scene, and is beside it. Above or below it may be on purpose: its top, its foot.
+fn other_body(lab: &Lab, task: &Task, motion: &MotionTask) -> Option<Doubt> {
+    let Value::Map(entries) = &motion.target else {
+        return None;
+    };
+    let lab = lab.of_task(task);
+    let (robot, scene) = (&lab.robot, motion.scene.as_ref()?);
+    let poses = forward_kinematics(robot, &robot.positions(&motion.start_q).ok()?);
+    let world_from_lab = poses.world_from(robot.frame(&lab.frame)?);
+    entries.iter().find_map(|(key, value)| {
+        let body = scene.scene.bodies.iter().find(|body| body.name == *key)?;
+        let Value::List(numbers) = value else {
+            return None;
+        };
+        let numbers = numbers.iter().map(|number| match number {
+            Value::Number(number) => Some(*number),
+            _ => None,
+        });
+        let [x, y, z] = numbers.collect::<Option<Vec<f64>>>()?.try_into().ok()?;
+        let given = world_from_lab * nalgebra::Point3::new(x, y, z);
+        let is = body.world_from_body.translation.vector;
+        let off = given.coords - is;
+        let beside_m = match kinemark_sim::spatial::direction(motion.gravity_m_s2) {
+            Some(down) => (off - down * off.dot(&down)).norm(),
+            None => off.norm(),
+        };
+        let is = world_from_lab.inverse() * nalgebra::Point3::from(is);
+        (beside_m > BESIDE_M).then(|| {
+            doubt(
+                format!("{}/{key}", task.name),
+                format!(
+                    "students are given `{key}` at {}, and the body `{key}` stands at {}",
+                    list(&[x, y, z]),
+                    list(is.coords.as_slice())
+                ),
+                "write both from the same parameters, or call the key otherwise",
+            )
+        })
+    })
 }
 
 /// A list of points in the target that is a path but for a few numbers.

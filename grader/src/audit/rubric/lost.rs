@@ -3,7 +3,7 @@
 use super::{Doubt, Rubric};
 use crate::lab::{Lab, TaskWork};
 use crate::record::grade::{CheckGrade, Grade, Outcome, TaskGrade};
-use crate::record::quantity::points;
+use crate::record::quantity::{points, with_unit};
 use crate::task::entry::Entry;
 use crate::task::model::{Function, FunctionTask, Given};
 use crate::task::pose::PoseForm;
@@ -69,6 +69,34 @@ pub(super) fn dead(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                 what: "neither the starter nor any mutant loses a point in it".to_owned(),
                 help: "add a mutant that loses here, or narrow the band, or remove the check"
                     .to_owned(),
+            });
+        }
+    }
+}
+
+/// Whoever loses most of a check should lose at least this share of its points: less is noticed by nobody.
+const HARDLY: f64 = 0.15;
+
+/// Checks in which everybody who is judged loses next to nothing: the band reaches far beyond what anybody does.
+pub(super) fn hardly(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let losses = rubric.losses();
+    for task in &rubric.lab.tasks {
+        for check in task.checks() {
+            let lost = losses
+                .of_check(&task.name, &check.name)
+                .filter(|grade| is_lost(grade))
+                .map(|grade| 1.0 - grade.points / grade.max_points);
+            let Some(most) = lost.reduce(f64::max).filter(|most| *most < HARDLY) else {
+                continue;
+            };
+            doubts.push(Doubt {
+                rule: "dead",
+                of: format!("{}/{}", task.name, check.name),
+                what: format!(
+                    "who loses most of it, of the starter and all mutants, loses {} of its points",
+                    with_unit(most, "")
+                ),
+                help: "move `zero` nearer to `full`, or add a mutant that loses more".to_owned(),
             });
         }
     }

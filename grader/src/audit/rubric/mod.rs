@@ -6,6 +6,7 @@
 //! | `related_bands` | bands that do not fit to each other |
 //! | `reach` | cases, goals and paths that the robot cannot reach, or only where it is singular; branches that are counted wrongly |
 //! | `unused` | parameters, variants, paths, sensors and frames that nothing uses |
+//! | `weights` | checks that decide alone, and checks that nobody notices |
 //! | `goals` | goals that are nearer to each other than their band, stays of a moment, targets that are not the path |
 //! | `far_draws` | hidden numbers of another size than the visible ones |
 //! | `hidden` | hidden cases and runs that are the visible ones, or leave the limits of joints; a salt that is short or known |
@@ -15,6 +16,7 @@
 //! | `accuracy` | bands that are thinner than what the simulation is accurate to |
 //! | `brief` | what is graded and not mentioned |
 //! | `words` | words and numbers of the brief and of checks that differ from what is graded |
+//! | `numbers` | numbers with a unit in titles, hints and the brief that nothing has |
 //! | `times` | times of runs and calls that the brief says, and lab.toml does not |
 //! | `mutant_words` | mutants that say what another does |
 //! | `names` | names in texts that nothing has, and what still says TODO |
@@ -34,6 +36,7 @@ mod hidden;
 mod lost;
 mod mutant_words;
 mod names;
+mod numbers;
 mod reach;
 mod related_bands;
 mod settings;
@@ -41,6 +44,7 @@ mod times;
 mod twice;
 mod unused;
 mod variants;
+mod weights;
 mod words;
 
 use serde::Serialize;
@@ -175,12 +179,18 @@ const RULES: &[Rule] = &[
             words::rule(rubric, doubts);
             mutant_words::rule(rubric, doubts);
             times::rule(rubric, doubts);
+            numbers::rule(rubric, doubts);
         },
     ),
     (
         "names",
         "what is mentioned is there, and nothing says TODO",
         names::rule,
+    ),
+    (
+        "points",
+        "no check decides alone, and each is noticed",
+        weights::rule,
     ),
     ("band", "points can be lost", |rubric, doubts| {
         band::rule(rubric, doubts);
@@ -200,7 +210,14 @@ const RULES: &[Rule] = &[
         "half the physics step changes nothing",
         accuracy::rule,
     ),
-    ("dead", "every check is lost by somebody", lost::dead),
+    (
+        "dead",
+        "every check is lost by somebody",
+        |rubric, doubts| {
+            lost::dead(rubric, doubts);
+            lost::hardly(rubric, doubts);
+        },
+    ),
     ("free", "no check is earned for nothing", lost::free),
 ];
 

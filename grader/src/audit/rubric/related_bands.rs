@@ -1,6 +1,7 @@
-//! Bands that do not fit to each other, or to what they are about: of two checks of one answer, of a path and how much of it counts.
+//! Bands that do not fit to each other, or to what they are about: of two checks of one answer, of a path and how much of it counts, of an
+//! answer and how exactly computers compute.
 
-use toml::Table;
+use toml::{Table, Value};
 
 use super::{Doubt, Rubric};
 use crate::audit::typed;
@@ -12,6 +13,11 @@ const LEAST_TILT_DEG: f64 = 1.0;
 /// Who followed less than this share of a path has not followed it.
 const LEAST_COVERAGE: f64 = 0.5;
 
+/// Two right ways to compute an answer differ by rounding: by some 1e-15 of its size, and more where terms cancel.
+const ROUNDING: f64 = 1e-9;
+/// Differences with the best of steps give a Jacobian to about this share.
+const BY_DIFFERENCES: f64 = 1e-7;
+
 /// Looks at the checks of every task.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     let table = typed::table(rubric.lab).unwrap_or_default();
@@ -22,6 +28,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                 let (kind, keys) = typed::kind(check)?;
                 Some(Typed {
                     of: format!("{}/{}", typed::name(task), typed::name(check)),
+                    check,
                     kind,
                     keys,
                 })
@@ -32,6 +39,8 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             doubts.extend(little_coverage(check));
             doubts.extend(wide_gate(check, &checks));
             doubts.extend(narrow_tilt(check));
+            doubts.extend(below_rounding(check));
+            doubts.extend(needs_of_another_segment(check, &checks));
         }
     }
 }
@@ -39,6 +48,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
 /// A check as it is typed.
 struct Typed<'t> {
     of: String,
+    check: &'t Table,
     kind: &'t str,
     keys: &'t Table,
 }
@@ -63,6 +73,69 @@ fn doubt(of: &Typed<'_>, what: String, help: &str) -> Doubt {
         what,
         help: help.to_owned(),
     }
+}
+
+/// Kinds that judge what a function answers, and may be as good as rounding lets them.
+const OF_ANSWERS: [&str; 5] = [
+    "fk-error",
+    "fk-orientation",
+    "ik-reach",
+    "jacobian-match",
+    "function-cases",
+];
+
+/// All points only for an answer that is computed as the engine computes it.
+fn below_rounding(check: &Typed<'_>) -> Option<Doubt> {
+    if !OF_ANSWERS.contains(&check.kind) {
+        return None;
+    }
+    let (least, words) = match check.kind {
+        "jacobian-match" => (
+            BY_DIFFERENCES,
+            "who computes the Jacobian by differences loses points",
+        ),
+        _ => (
+            ROUNDING,
+            "two right ways to compute an answer differ by their rounding",
+        ),
+    };
+    let keys = ["full", "full_m", "full_rad"].into_iter();
+    let (key, full) = keys
+        .filter_map(|key| Some((key, check.number(key)?)))
+        .find(|(_, full)| *full < least)?;
+    Some(doubt(
+        check,
+        format!("`{key}` is {full}: {words}"),
+        "widen the band: 1e-6 is near enough to tell right from wrong",
+    ))
+}
+
+/// A check of one segment of a path that counts once another segment has earned points, while a check of its own segment is there.
+fn needs_of_another_segment(check: &Typed<'_>, checks: &[Typed<'_>]) -> Option<Doubt> {
+    let segment = |of: &Typed<'_>| of.keys.get("segment").and_then(Value::as_integer);
+    let own = segment(check)?;
+    let name = |of: &Typed<'_>| typed::name(of.check).to_owned();
+    let needs = check.check.get("needs")?.as_array()?;
+    let is_needed =
+        |other: &&Typed<'_>| needs.iter().any(|need| need.as_str() == Some(&name(other)));
+    let others = checks
+        .iter()
+        .filter(|other| other.is_of_path_of(check) && segment(other).is_some());
+    let (needed, free): (Vec<_>, Vec<_>) = others.partition(is_needed);
+    let of_own = |other: &&Typed<'_>| segment(other) == Some(own) && other.of != check.of;
+    if needed.iter().any(of_own) {
+        return None;
+    }
+    let (wrong, right) = (needed.first()?, free.into_iter().find(of_own)?);
+    Some(doubt(
+        check,
+        format!(
+            "it is about segment {own} of the path, and needs `{}`, which is about segment {}",
+            name(wrong),
+            segment(wrong).unwrap_or_default()
+        ),
+        &format!("did you mean `{}`?", name(&right)),
+    ))
 }
 
 /// Branches that may be much farther off than the one that has to reach.
@@ -127,4 +200,66 @@ fn wide_gate(check: &Typed<'_>, checks: &[Typed<'_>]) -> Option<Doubt> {
             "let `within_m` be of the size of the deviation that still earns points",
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The checks of a task, each a line of TOML behind its name.
+    fn doubts(checks: &[&str]) -> Vec<String> {
+        let mut text = String::new();
+        for (i, check) in checks.iter().enumerate() {
+            text += &format!("[[checks]]\nname = \"c{i}\"\n{check}\n");
+        }
+        let table: Table = text.parse().expect("TOML");
+        let checks = typed::tables(&table, "checks");
+        let checks: Vec<Typed<'_>> = checks
+            .into_iter()
+            .map(|check| {
+                let (kind, keys) = typed::kind(check).expect("a kind");
+                let of = typed::name(check).to_owned();
+                Typed {
+                    of,
+                    check,
+                    kind,
+                    keys,
+                }
+            })
+            .collect();
+        let found = checks.iter().flat_map(|check| {
+            let segment = needs_of_another_segment(check, &checks);
+            below_rounding(check).into_iter().chain(segment)
+        });
+        found.map(|doubt| doubt.of).collect()
+    }
+
+    #[test]
+    fn a_check_that_needs_the_other_segment_is_found() {
+        let segments = |needs: &str| {
+            doubts(&[
+                "path-deviation = { path = \"line\", segment = 1 }",
+                "path-deviation = { path = \"line\", segment = 2 }",
+                &format!("needs = [{needs}]\npath-speed = {{ path = \"line\", segment = 2 }}"),
+            ])
+        };
+        assert_eq!(segments("\"c0\""), ["c2"]);
+        assert_eq!(segments("\"c1\""), [""; 0]);
+        assert_eq!(segments("\"c0\", \"c1\""), [""; 0], "both, on purpose");
+        // where nothing judges its own segment, another is a gate like any
+        let alone = [
+            "path-deviation = { path = \"line\", segment = 1 }",
+            "needs = [\"c0\"]\npath-speed = { path = \"line\", segment = 2 }",
+        ];
+        assert_eq!(doubts(&alone), [""; 0]);
+    }
+
+    #[test]
+    fn a_band_below_rounding_or_differences_is_found() {
+        assert_eq!(doubts(&["jacobian-match = { full = 1e-9 }"]), ["c0"]);
+        assert_eq!(doubts(&["jacobian-match = { full = 1e-5 }"]), [""; 0]);
+        assert_eq!(doubts(&["fk-error = { full_m = 1e-8 }"]), [""; 0]);
+        assert_eq!(doubts(&["function-cases = { full = 0.0 }"]), ["c0"]);
+        assert_eq!(doubts(&["finish-time = { full_s = 0.0 }"]), [""; 0]);
+    }
 }

@@ -57,6 +57,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             continue;
         };
         doubts.extend(of_target(&task.name, motion));
+        doubts.extend(long_run(rubric, &task.name, motion, &typed));
         doubts.extend(above_robot(lab.of_task(task), &task.name, &typed));
         let has_gain = motion.servo.gains.iter().any(|gains| {
             [gains.kp, gains.ki, gains.kd]
@@ -73,6 +74,40 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             });
         }
     }
+}
+
+/// A run goes on for so many times what the reference solution needs, and for at least so long \[s\].
+const LONG: (f64, f64) = (8.0, 10.0);
+
+/// A run that goes on long after the reference solution is done.
+fn long_run(rubric: &Rubric<'_>, task: &str, motion: &MotionTask, typed: &Table) -> Option<Doubt> {
+    let mut graded = rubric.graded_tasks();
+    let (_, grade) = graded.find(|(known, _)| known.name == task)?;
+    let typed = typed::named(typed, "tasks", task)?;
+    let is_of_end = |check: &&Table| {
+        typed::kind(check).is_some_and(|(kind, _)| ["finish-time", "time-limit"].contains(&kind))
+    };
+    let of_end = typed::tables(typed, "checks").into_iter().filter(is_of_end);
+    // what takes longest is when all is done
+    let done_s = of_end
+        .filter_map(|typed| {
+            let mut checks = grade.checks.iter();
+            let check = checks.find(|check| check.name == typed::name(typed))?;
+            check.measure.as_ref()?.value
+        })
+        .reduce(f64::max)?;
+    let run_s = motion.periods.time_s(motion.ticks);
+    let (times, least_s) = LONG;
+    (run_s > times * done_s && run_s - done_s > least_s).then(|| Doubt {
+        rule: "settings",
+        of: format!("{task}/duration_s"),
+        what: format!(
+            "the run takes {}, and the reference solution is done after {}: every grade simulates the rest",
+            with_unit(run_s, "s"),
+            with_unit(done_s, "s")
+        ),
+        help: "shorten `duration_s` to about twice what a good run takes".to_owned(),
+    })
 }
 
 /// Bodies that move before anybody touches them.

@@ -1,8 +1,7 @@
 //! Times that the brief says of runs and calls, against those of lab.toml.
 
-use toml::Value;
-
 use super::{Doubt, Rubric};
+use crate::audit::quantities::{bare, is_same, stated, typed_at};
 use crate::audit::typed;
 use crate::lab::{Lab, TaskWork};
 use crate::task::model::MotionTask;
@@ -19,11 +18,12 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     if motions.is_empty() {
         return;
     }
-    let mut typed = Vec::new();
     let table = typed::table(rubric.lab).unwrap_or_default();
-    table
-        .iter()
-        .for_each(|(key, value)| times_typed(key, value, &mut typed));
+    let typed = table.iter().flat_map(|(key, value)| typed_at(key, value));
+    let typed: Vec<f64> = typed
+        .filter(|(_, unit)| *unit == "s")
+        .map(|(time_s, _)| time_s)
+        .collect();
     let durations = motions.iter().map(|m| m.periods.time_s(m.ticks));
     let durations: Vec<f64> = durations.collect();
     let periods = motions.iter().map(|m| m.periods.control_s());
@@ -46,7 +46,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         for (stated_s, what, of_lab, real) in stated {
             let Some(stated_s) = stated_s else { continue };
             let mut known = real.iter().chain(&others).chain(&typed);
-            if known.any(|x| is_near(*x, stated_s)) {
+            if known.any(|x| is_same(*x, stated_s)) {
                 continue;
             }
             let mut real: Vec<String> = real.iter().map(|x| format!("{x} s")).collect();
@@ -71,44 +71,8 @@ fn motions(lab: &Lab) -> impl Iterator<Item = &MotionTask> {
     })
 }
 
-fn is_near(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1e-6 * b.abs()
-}
-
-/// The times \[s\] at a key of lab.toml: it ends with its unit.
-fn times_typed(key: &str, value: &Value, found: &mut Vec<f64>) {
-    let unit_s = match key.rsplit('_').next() {
-        Some("s") => 1.0,
-        Some("ms") => 1e-3,
-        _ => 0.0,
-    };
-    let is_time = unit_s > 0.0;
-    match value {
-        Value::Float(number) if is_time => found.push(unit_s * number),
-        Value::Integer(number) if is_time => found.push(unit_s * *number as f64),
-        Value::Array(items) => items.iter().for_each(|item| times_typed(key, item, found)),
-        Value::Table(table) => {
-            let mut entries = table.iter();
-            entries
-                .by_ref()
-                .for_each(|(key, item)| times_typed(key, item, found));
-        }
-        // an expression such as "= 0.5 * period" has numbers, too
-        Value::String(text) if is_time => {
-            let parts = text.split(|c: char| !(c.is_ascii_digit() || c == '.'));
-            let numbers = parts.filter_map(|part| part.parse::<f64>().ok());
-            found.extend(numbers.map(|number| unit_s * number));
-        }
-        Value::Float(_)
-        | Value::Integer(_)
-        | Value::String(_)
-        | Value::Boolean(_)
-        | Value::Datetime(_) => {}
-    }
-}
-
 /// The sentences of a brief, those with a mark left out: what a mark computes is right.
-fn sentences(brief: &str) -> impl Iterator<Item = &str> {
+pub(super) fn sentences(brief: &str) -> impl Iterator<Item = &str> {
     let mut parts = vec![brief];
     for end in ENDS {
         parts = parts.into_iter().flat_map(|part| part.split(end)).collect();
@@ -154,23 +118,11 @@ fn period_s(words: &[&str]) -> Option<f64> {
     every.map(|(_, time_s)| time_s).or(often)
 }
 
-/// The times among words, each with the place of its number: `3 s`, `10 ms`, `2 seconds`.
+/// The times \[s\] among words, each with the place of its number: `3 s`, `10 ms`, `2 seconds`.
 fn times(words: &[&str]) -> impl Iterator<Item = (usize, f64)> {
-    words.windows(2).enumerate().filter_map(|(at, pair)| {
-        let number: f64 = bare(pair[0]).parse().ok()?;
-        let scale = match bare(pair[1]) {
-            "s" | "second" | "seconds" => 1.0,
-            "ms" | "millisecond" | "milliseconds" => 1e-3,
-            _ => return None,
-        };
-        Some((at, number * scale))
-    })
-}
-
-/// A word without what stands around it.
-fn bare(word: &str) -> &str {
-    let of_word = |c: char| c.is_alphanumeric() || c == '.' || c == '-';
-    word.trim_matches(|c| !of_word(c)).trim_end_matches('.')
+    let times = stated(words).into_iter();
+    let times = times.filter(|stated| stated.unit == "s");
+    times.map(|stated| (stated.at, stated.value))
 }
 
 #[cfg(test)]

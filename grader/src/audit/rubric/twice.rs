@@ -11,6 +11,7 @@ use crate::lab::TaskWork;
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     cases(rubric, doubts);
     mutants(rubric, doubts);
+    says(rubric, doubts);
     if let Some(table) = typed::table(rubric.lab) {
         let tasks = tables(&table, "tasks");
         checks(&tasks, doubts);
@@ -64,6 +65,31 @@ fn mutants(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                 format!("mutant {}", mutant.name),
                 format!("its file is that of mutant `{}`", first.name),
                 "one entry names all tasks of a mistake: put `says` for each task into it",
+            ));
+        }
+    }
+}
+
+/// Two mutants of one task that say the same: one of the two was copied.
+fn says(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    let named = rubric.staff.mutants.iter().filter(|mutant| mutant.is_named);
+    let named: Vec<_> = named.collect();
+    for (i, mutant) in named.iter().enumerate() {
+        let same = named[..i].iter().find(|first| {
+            let mut tasks = mutant.tasks.iter();
+            let says = mutant.says.trim();
+            // a file that was just begun has the same TODO everywhere
+            !says.starts_with("TODO")
+                && says == first.says.trim()
+                && mutant.says_in.is_empty()
+                && first.says_in.is_empty()
+                && tasks.any(|task| first.tasks.contains(task))
+        });
+        if let Some(first) = same {
+            doubts.push(doubt(
+                format!("mutant {}", mutant.name),
+                format!("it says what mutant `{}` says", first.name),
+                "say in each what was done, and what to do instead",
             ));
         }
     }

@@ -4,6 +4,7 @@ use kinemark_sim::text::Dimension;
 use toml::{Table, Value as Toml};
 
 use super::{Doubt, Rubric};
+use crate::audit::quantities::stated;
 use crate::audit::typed;
 use crate::lab::{Lab, Task, TaskWork};
 use crate::record::quantity::points;
@@ -29,6 +30,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
     of_hints(rubric.lab, &table, doubts);
     of_sides(&table, doubts);
+    of_entries(&table, doubts);
     if let Some(brief) = rubric.brief {
         of_title(rubric.lab, brief, doubts);
     }
@@ -56,18 +58,9 @@ fn of_sizes(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
             continue;
         }
         let words: Vec<&str> = cell.split_whitespace().collect();
-        let stated: Vec<f64> = words
-            .windows(2)
-            .filter_map(|pair| {
-                let scale = match pair[1].trim_matches(',') {
-                    "m" => 1.0,
-                    "cm" => 1e-2,
-                    "mm" => 1e-3,
-                    _ => return None,
-                };
-                Some(scale * pair[0].parse::<f64>().ok()?)
-            })
-            .collect();
+        let lengths = stated(&words).into_iter();
+        let lengths = lengths.filter(|stated| stated.unit == "m");
+        let stated: Vec<f64> = lengths.map(|stated| stated.value).collect();
         if stated.len() != values.len() {
             continue;
         }
@@ -163,6 +156,35 @@ fn of_sides(table: &Table, doubts: &mut Vec<Doubt>) {
                     format!("{}/{}", typed::name(task), typed::name(check)),
                     format!("\"{title}\" says {other}, and {key} = \"{value}\""),
                     "say the same in the title and in the key",
+                ));
+            }
+        }
+    }
+}
+
+/// A check that reads one entry of an answer, and is called after another.
+fn of_entries(table: &Table, doubts: &mut Vec<Doubt>) {
+    for task in typed::tables(table, "tasks") {
+        let checks = typed::tables(task, "checks");
+        let read = |check: &Table| -> Option<String> {
+            let (_, keys) = typed::kind(check)?;
+            Some(keys.get("entry")?.as_str()?.to_owned())
+        };
+        let entries: Vec<String> = checks.iter().filter_map(|check| read(check)).collect();
+        for check in &checks {
+            let title = check.get("title").and_then(Toml::as_str);
+            let (Some(title), Some(own)) = (title, read(check)) else {
+                continue;
+            };
+            let words = format!("{} {title}", typed::name(check));
+            let other = entries
+                .iter()
+                .find(|entry| **entry != own && has_word(&words, entry));
+            if let Some(other) = other.filter(|_| !has_word(&words, &own)) {
+                doubts.push(doubt(
+                    format!("{}/{}", typed::name(task), typed::name(check)),
+                    format!("\"{title}\" is about `{other}`, and reads the entry `{own}`"),
+                    "name the entry that is meant, or give the check another name and title",
                 ));
             }
         }
@@ -519,6 +541,33 @@ mod tests {
         ] {
             let mut doubts = Vec::new();
             of_sides(&table(title), &mut doubts);
+            assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
+        }
+    }
+
+    #[test]
+    fn a_title_that_names_the_entry_of_another_check_is_found() {
+        let table = |title: &str| {
+            let check = |name: &str, title: &str, entry: &str| {
+                format!(
+                    "[[tasks.checks]]\nname = \"{name}\"\ntitle = \"{title}\"\nfunction-cases = {{ entry = \"{entry}\" }}\n"
+                )
+            };
+            let text = format!(
+                "[[tasks]]\nname = \"t\"\n{}{}",
+                check("first", title, "inertia"),
+                check("second", "The damping ratio", "damping_ratio")
+            );
+            text.parse::<Table>().expect("TOML")
+        };
+        for (title, count) in [
+            ("The damping ratio", 1),
+            ("The inertia", 0),
+            ("Inertia and damping ratio", 0),
+            ("What resists", 0),
+        ] {
+            let mut doubts = Vec::new();
+            of_entries(&table(title), &mut doubts);
             assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
         }
     }
