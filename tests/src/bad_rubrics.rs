@@ -472,6 +472,20 @@ fn every_fault_is_found_with_its_place_and_numbers() {
             "others know it",
         ),
         (
+            "hidden.toml",
+            "a long one that nobody can guess",
+            "abababababababab",
+            "salt",
+            "the salt is a few signs again and again",
+        ),
+        (
+            "hidden.toml",
+            "a long one that nobody can guess",
+            "1234567890123",
+            "salt",
+            "the salt is digits in a row",
+        ),
+        (
             "lab.toml",
             "out = { from = 1.1, to = 1.3, step = 0.01 }",
             "out = { from = 1.25, to = 1.3, step = 0.01 }",

@@ -317,7 +317,7 @@ fn two_mutants_that_say_the_same_are_doubted() {
     for (second, expected) in [
         (
             "It stands still.",
-            &["mutant other: it says what mutant `one` says"][..],
+            &["mutant other: it says what mutant `one` says: \"It stands still.\""][..],
         ),
         ("It goes the wrong way.", &[]),
     ] {

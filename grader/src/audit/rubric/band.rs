@@ -103,6 +103,38 @@ fn of_reference(rubric: &Rubric<'_>, task: &str, check: &str) -> Option<(Band, &
     Some((Band { full, zero }, unit))
 }
 
+/// A value may be so many times what the reference solution reaches, and still earn everything.
+const FAR_ABOVE: f64 = 100.0;
+
+/// Bands of speeds, jerks, energies and the like, for which nothing says what can be: far above what the reference solution reaches.
+pub(super) fn far_above(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    // what is as good as can be has no size in these: a distance, an angle, a share
+    let has_best = ["m", "rad", "s", "", "N m", "N", "N m or N"];
+    for (task, grade) in rubric.graded_tasks() {
+        for check in &grade.checks {
+            let measure = check.measure.as_ref();
+            let measure = measure.filter(|measure| {
+                measure.full < measure.zero && !has_best.contains(&measure.unit.as_str())
+            });
+            let Some((measure, value)) = measure.and_then(|m| Some((m, m.value?))) else {
+                continue;
+            };
+            if value > 0.0 && measure.full > FAR_ABOVE * value {
+                doubts.push(Doubt {
+                    rule: "band",
+                    of: format!("{}/{}", task.name, check.name),
+                    what: format!(
+                        "all points up to {}, and the reference solution reaches {}: hardly anybody can lose one",
+                        with_unit(measure.full, &measure.unit),
+                        with_unit(value, &measure.unit)
+                    ),
+                    help: "narrow the band: `full` is the worst that still earns everything".to_owned(),
+                });
+            }
+        }
+    }
+}
+
 /// The radius of the workspace about its middle \[m\].
 fn reach_m(lab: &Lab) -> f64 {
     let workspace = sample_workspace(&lab.robot, lab.robot.tcp(), SAMPLES);

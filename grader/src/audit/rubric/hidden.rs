@@ -230,5 +230,29 @@ pub(super) fn salt(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             "the salt is short, {} of at least {SHORTEST_SALT} characters: who tries all short ones finds the hidden numbers",
             salt.chars().count()
         ));
+    } else if let Some(few) = few_signs(salt) {
+        doubt(format!(
+            "the salt is {few}: who tries such salts first finds the hidden numbers"
+        ));
+    }
+}
+
+/// A salt of fewer different signs is one that somebody types without thinking.
+const LEAST_SIGNS: usize = 6;
+
+/// What is too simple about a salt: a few signs again and again, or a row of digits.
+fn few_signs(salt: &str) -> Option<&'static str> {
+    let signs: std::collections::BTreeSet<char> = salt.chars().collect();
+    let digits: Option<Vec<u32>> = salt.chars().map(|c| c.to_digit(10)).collect();
+    let counts = |digits: &Vec<u32>| {
+        let mut pairs = digits.windows(2);
+        pairs.all(|pair| pair[1] == (pair[0] + 1) % 10)
+    };
+    if signs.len() < LEAST_SIGNS {
+        Some("a few signs again and again")
+    } else if digits.as_ref().is_some_and(counts) {
+        Some("digits in a row")
+    } else {
+        None
     }
 }

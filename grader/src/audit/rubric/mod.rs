@@ -194,6 +194,7 @@ const RULES: &[Rule] = &[
     ),
     ("band", "points can be lost", |rubric, doubts| {
         band::rule(rubric, doubts);
+        band::far_above(rubric, doubts);
         related_bands::rule(rubric, doubts);
     }),
     (

@@ -6,20 +6,23 @@ use crate::lab::staff::Mutant;
 /// Letters at the beginning of a word that decide: `rounded` fits to `rounding`.
 const STEM: usize = 5;
 
-/// Two mutants each of whose names fits the words of the other better than its own.
+/// Names of two mutants that have so many words more in common with the other's words than with their own.
+const CROSSED: usize = 2;
+
+/// Two mutants whose names fit the words of the other better than their own.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     let mutants = &rubric.staff.mutants;
     for (i, one) in mutants.iter().enumerate() {
         let exchanged = mutants[..i].iter().find(|other| {
-            fits(&one.name, other) > fits(&one.name, one)
-                && fits(&other.name, one) > fits(&other.name, other)
+            let own = fits(&one.name, one) + fits(&other.name, other);
+            fits(&one.name, other) + fits(&other.name, one) >= own + CROSSED
         });
         if let Some(other) = exchanged {
             doubts.push(Doubt {
                 rule: "words",
                 of: format!("mutant {}", one.name),
                 what: format!(
-                    "what mutant `{}` says fits its name better than what it says, and the other way round",
+                    "what mutant `{0}` says fits its name, and what it says fits the name of `{0}`",
                     other.name
                 ),
                 help: "exchange what the two say, or give them other names".to_owned(),

@@ -136,7 +136,7 @@ fn of_hints(task: &Table, check: &Table) -> Option<Doubt> {
 /// A limit of efforts that the brief gives a joint, and the servo another.
 fn of_efforts(lab: &Lab, words: &[&str]) -> Option<Doubt> {
     let is_of_limit = |word: &&str| ["most", "limit", "limits", "limited"].contains(&bare(word));
-    if !words.iter().any(|word| is_of_limit(&word)) {
+    if !words.iter().any(is_of_limit) {
         return None;
     }
     stated(words).into_iter().find_map(|stated| {

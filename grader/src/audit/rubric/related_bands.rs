@@ -39,6 +39,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             doubts.extend(little_coverage(check));
             doubts.extend(wide_gate(check, &checks));
             doubts.extend(narrow_tilt(check));
+            doubts.extend(beyond_limits(check));
             doubts.extend(below_rounding(check));
             doubts.extend(needs_of_another_segment(check, &checks));
         }
@@ -73,6 +74,23 @@ fn doubt(of: &Typed<'_>, what: String, help: &str) -> Doubt {
         what,
         help: help.to_owned(),
     }
+}
+
+/// A joint is at its limit to about this: a contact with a stop, and what a controller is off by \[rad or m\].
+const AT_LIMIT: f64 = 0.1;
+
+/// All points for a joint that is well beyond its limit.
+fn beyond_limits(check: &Typed<'_>) -> Option<Doubt> {
+    let is_of_limits = check.kind == "joint-limits";
+    let keys = ["full_rad", "full_m"].into_iter();
+    let (key, full) = keys
+        .filter_map(|key| Some((key, check.number(key)?)))
+        .find(|(_, full)| is_of_limits && *full > AT_LIMIT)?;
+    Some(doubt(
+        check,
+        format!("`{key}` is {full}: a joint that is so far beyond its limit earns all points"),
+        "let `full` be 0, or little more",
+    ))
 }
 
 /// Kinds that judge what a function answers, and may be as good as rounding lets them.
@@ -134,7 +152,7 @@ fn needs_of_another_segment(check: &Typed<'_>, checks: &[Typed<'_>]) -> Option<D
             name(wrong),
             segment(wrong).unwrap_or_default()
         ),
-        &format!("did you mean `{}`?", name(&right)),
+        &format!("did you mean `{}`?", name(right)),
     ))
 }
 
@@ -229,7 +247,8 @@ mod tests {
             .collect();
         let found = checks.iter().flat_map(|check| {
             let segment = needs_of_another_segment(check, &checks);
-            below_rounding(check).into_iter().chain(segment)
+            let others = beyond_limits(check).into_iter().chain(segment);
+            below_rounding(check).into_iter().chain(others)
         });
         found.map(|doubt| doubt.of).collect()
     }
@@ -261,5 +280,12 @@ mod tests {
         assert_eq!(doubts(&["fk-error = { full_m = 1e-8 }"]), [""; 0]);
         assert_eq!(doubts(&["function-cases = { full = 0.0 }"]), ["c0"]);
         assert_eq!(doubts(&["finish-time = { full_s = 0.0 }"]), [""; 0]);
+    }
+
+    #[test]
+    fn a_joint_well_beyond_its_limit_is_found() {
+        assert_eq!(doubts(&["joint-limits = { full_rad = 0.5 }"]), ["c0"]);
+        assert_eq!(doubts(&["joint-limits = { full_rad = 0.0 }"]), [""; 0]);
+        assert_eq!(doubts(&["joint-reached = { full_rad = 0.5 }"]), [""; 0]);
     }
 }

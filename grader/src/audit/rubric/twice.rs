@@ -70,17 +70,17 @@ fn mutants(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
 }
 
-/// Two mutants of one task that say the same: one of the two was copied.
+/// Two mutants of one task that begin with the same sentence: one of the two was copied.
 fn says(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     let named = rubric.staff.mutants.iter().filter(|mutant| mutant.is_named);
     let named: Vec<_> = named.collect();
     for (i, mutant) in named.iter().enumerate() {
         let same = named[..i].iter().find(|first| {
             let mut tasks = mutant.tasks.iter();
-            let says = mutant.says.trim();
+            let says = first_sentence(&mutant.says);
             // a file that was just begun has the same TODO everywhere
             !says.starts_with("TODO")
-                && says == first.says.trim()
+                && says == first_sentence(&first.says)
                 && mutant.says_in.is_empty()
                 && first.says_in.is_empty()
                 && tasks.any(|task| first.tasks.contains(task))
@@ -88,11 +88,20 @@ fn says(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         if let Some(first) = same {
             doubts.push(doubt(
                 format!("mutant {}", mutant.name),
-                format!("it says what mutant `{}` says", first.name),
+                format!(
+                    "it says what mutant `{}` says: \"{}\"",
+                    first.name,
+                    first_sentence(&first.says)
+                ),
                 "say in each what was done, and what to do instead",
             ));
         }
     }
+}
+
+fn first_sentence(says: &str) -> &str {
+    let says = says.trim();
+    says.split_once(". ").map_or(says, |(first, _)| first)
 }
 
 /// Checks of one task that measure the same.
