@@ -473,6 +473,20 @@ fn every_fault_is_found_with_its_place_and_numbers() {
         ),
         (
             "hidden.toml",
+            "out = [1.05, 1.25]",
+            "out = [1.05, 2.0]",
+            "reach",
+            "touch/goal 1 in class \"another place\": [2.5, 2, 0.05] is out of reach",
+        ),
+        (
+            "lab.toml",
+            "trim_m = 0.05",
+            "trim_m = 0.16",
+            "goals",
+            "touch/line: `trim_m` leaves 80.0 mm of a segment of 0.400 m",
+        ),
+        (
+            "hidden.toml",
             "a long one that nobody can guess",
             "abababababababab",
             "salt",
@@ -739,6 +753,11 @@ fn words_of_the_brief_are_held_to_what_is_graded() {
             Some("target.effort_n_m: the brief says 3, lab.toml 2"),
         ),
         ("`target.effort_n_m` = 2 is the effort.", None),
+        (
+            "Push with `effort_n_m`, 3 N m.",
+            Some("target.effort_n_m: the brief says 3 N m, lab.toml 2"),
+        ),
+        ("Push with `effort_n_m`, 2 N m.", None),
         (
             "A call may use 1000 operations.",
             Some("budgets: the brief says 1000 operations, a call has 25000"),

@@ -385,3 +385,19 @@ fn a_run_that_goes_on_for_long_is_doubted() {
         "{found:#?}"
     );
 }
+
+#[test]
+fn a_hidden_number_that_lost_its_minus_is_doubted() {
+    let lab = |range: &str| {
+        motion_lab()
+            .with("lab.toml", "unheard = 1.0", "unheard = [0.5, -0.4]")
+            .with(
+                "hidden.toml",
+                "out = [0.45, 0.55]",
+                &format!("out = [0.45, 0.55], unheard = [[0.4, 0.6], {range}]"),
+            )
+    };
+    assert_eq!(found_by("hidden", &lab("[-0.5, -0.3]")), [""; 0]);
+    let words = "go/elsewhere: `unheard[1]` is -0.4 in lab.toml, and of the other sign in every run: is a minus missing?";
+    assert_eq!(found_by("hidden", &lab("[0.3, 0.5]")), [words]);
+}

@@ -19,7 +19,7 @@ use super::facts::MotionFacts;
 use super::finding::Finding;
 use super::reading::Reading;
 use crate::attempt::answers::CaseFacts;
-use crate::record::quantity::with_unit;
+use crate::record::quantity::end_of_band;
 use crate::task::model::{Band, FunctionTask};
 use crate::task::problem::{LabError, problems};
 
@@ -205,7 +205,7 @@ impl<M> InBand<M> {
     /// An end of the band in words.
     fn end(&self, end: Linear) -> String {
         if !end.is_of_later() {
-            return with_unit(end.plus, self.unit);
+            return end_of_band(end.plus, self.unit);
         }
         let times = trimmed(end.times, 4);
         let mut words = match times.as_str() {
@@ -214,7 +214,7 @@ impl<M> InBand<M> {
         };
         if end.plus.abs() > 0.0 {
             let sign = if end.plus < 0.0 { "−" } else { "+" };
-            words += &format!(" {sign} {}", with_unit(end.plus.abs(), self.unit));
+            words += &format!(" {sign} {}", end_of_band(end.plus.abs(), self.unit));
         }
         words
     }

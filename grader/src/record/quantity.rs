@@ -1,6 +1,6 @@
 //! Measures with their units, and points, formatted for messages.
 
-use kinemark_sim::text::number::{metres, seconds, significant, trimmed};
+use kinemark_sim::text::number::{metres, seconds, short, significant, trimmed};
 
 /// Larger numbers are shown as being above this one.
 const BEYOND: f64 = 1e9;
@@ -22,6 +22,19 @@ pub fn with_unit(value: f64, unit: &str) -> String {
         "" => format!("{} %", trimmed(value * 100.0, 1)),
         unit if value != 0.0 && value.abs() < 5e-5 => format!("under 0.0001 {unit}"),
         unit => format!("{} {unit}", trimmed(value, 4)),
+    }
+}
+
+/// An end of a band, formatted like [`with_unit`], but as small as it is: "up to under 0.0001 rad" would say nothing.
+pub fn end_of_band(value: f64, unit: &str) -> String {
+    let words = with_unit(value, unit);
+    if !words.starts_with("under ") {
+        return words;
+    }
+    match unit {
+        "m" => format!("{} mm", short(value * 1000.0)),
+        "" => format!("{} %", short(value * 100.0)),
+        unit => format!("{} {unit}", short(value)),
     }
 }
 
@@ -113,6 +126,10 @@ mod tests {
         assert_eq!(with_unit(3e-16, ""), "under 0.0001 %");
         assert_eq!(with_unit(0.0, ""), "0 %");
         assert_eq!(with_unit(4.3e-5, "rad"), "under 0.0001 rad");
+        assert_eq!(end_of_band(4.3e-5, "rad"), "4.3e-5 rad");
+        assert_eq!(end_of_band(1e-7, "m"), "1e-4 mm");
+        assert_eq!(end_of_band(1e-7, ""), "1e-5 %");
+        assert_eq!(end_of_band(0.02, "rad"), with_unit(0.02, "rad"));
         assert_eq!(with_unit(1e300, "m"), "over 1000000000 m");
         assert_eq!(with_unit(f64::NEG_INFINITY, "N m"), "below -1000000000 N m");
         assert_eq!(points(3.0), "3");

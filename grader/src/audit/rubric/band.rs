@@ -106,20 +106,27 @@ fn of_reference(rubric: &Rubric<'_>, task: &str, check: &str) -> Option<(Band, &
 /// A value may be so many times what the reference solution reaches, and still earn everything.
 const FAR_ABOVE: f64 = 100.0;
 
+/// Units in which what is as good as can be has no size: a distance, an angle, a share.
+const WITH_A_BEST: [&str; 7] = ["m", "rad", "s", "", "N m", "N", "N m or N"];
+
+fn is_far_above(measure: &Measure) -> bool {
+    let has_best = WITH_A_BEST.contains(&measure.unit.as_str());
+    !has_best
+        && measure.full < measure.zero
+        && measure
+            .value
+            .is_some_and(|value| value > 0.0 && measure.full > FAR_ABOVE * value)
+}
+
 /// Bands of speeds, jerks, energies and the like, for which nothing says what can be: far above what the reference solution reaches.
 pub(super) fn far_above(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
-    // what is as good as can be has no size in these: a distance, an angle, a share
-    let has_best = ["m", "rad", "s", "", "N m", "N", "N m or N"];
     for (task, grade) in rubric.graded_tasks() {
         for check in &grade.checks {
             let measure = check.measure.as_ref();
-            let measure = measure.filter(|measure| {
-                measure.full < measure.zero && !has_best.contains(&measure.unit.as_str())
-            });
             let Some((measure, value)) = measure.and_then(|m| Some((m, m.value?))) else {
                 continue;
             };
-            if value > 0.0 && measure.full > FAR_ABOVE * value {
+            if is_far_above(measure) {
                 doubts.push(Doubt {
                     rule: "band",
                     of: format!("{}/{}", task.name, check.name),
@@ -129,6 +136,46 @@ pub(super) fn far_above(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                         with_unit(value, &measure.unit)
                     ),
                     help: "narrow the band: `full` is the worst that still earns everything".to_owned(),
+                });
+            }
+        }
+    }
+}
+
+/// What is predicted on paper should be about what the reference solution does.
+const UNLIKE: f64 = 0.5;
+
+fn is_unlike(measure: &Measure) -> bool {
+    let (Some(value), Some(predicted)) = (measure.value, measure.prediction) else {
+        return false;
+    };
+    let apart = (value - predicted).abs();
+    // where both are next to nothing, shares say nothing
+    let width = (measure.zero - measure.full).abs();
+    apart > UNLIKE * value.abs().max(predicted.abs()) && apart > 0.1 * width
+}
+
+/// Predictions of quite another number than the reference solution reaches: of another arm, or of another loop.
+pub(super) fn predictions(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    for (task, grade) in rubric.graded_tasks() {
+        for check in &grade.checks {
+            let measure = check.measure.as_ref();
+            let Some((measure, value, predicted)) =
+                measure.and_then(|m| Some((m, m.value?, m.prediction?)))
+            else {
+                continue;
+            };
+            if is_unlike(measure) {
+                doubts.push(Doubt {
+                    rule: "band",
+                    of: format!("{}/{}", task.name, check.name),
+                    what: format!(
+                        "the prediction is {}, and the reference solution reaches {}",
+                        with_unit(predicted, &measure.unit),
+                        with_unit(value, &measure.unit)
+                    ),
+                    help: "is `prediction` of this joint, with this inertia and these gains? Students see it beside their curve"
+                        .to_owned(),
                 });
             }
         }
@@ -310,5 +357,47 @@ pub(super) fn margins(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                 thin(&task.name, &check.name, margin, "with the lab's numbers");
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measure(value: f64, unit: &str, prediction: Option<f64>) -> Measure {
+        Measure {
+            quantity: String::new(),
+            value: Some(value),
+            unit: unit.to_owned(),
+            full: 1000.0,
+            zero: 1000.4,
+            reference: None,
+            prediction,
+        }
+    }
+
+    #[test]
+    fn a_band_far_above_what_is_reached_is_found_where_nothing_else_bounds_it() {
+        assert!(is_far_above(&measure(9.0, "m/s³", None)));
+        assert!(!is_far_above(&measure(11.0, "m/s³", None)));
+        assert!(
+            !is_far_above(&measure(0.0, "N s", None)),
+            "nothing is touched"
+        );
+        assert!(
+            !is_far_above(&measure(1e-9, "m", None)),
+            "as good as can be"
+        );
+    }
+
+    #[test]
+    fn a_prediction_of_another_arm_is_found() {
+        assert!(is_unlike(&measure(0.232, "s", Some(0.1))));
+        assert!(!is_unlike(&measure(0.232, "s", Some(0.201))));
+        assert!(
+            !is_unlike(&measure(0.015, "s", Some(0.005))),
+            "both are next to nothing"
+        );
+        assert!(!is_unlike(&measure(0.232, "s", None)));
     }
 }

@@ -1,5 +1,6 @@
-//! Hidden numbers of quite another size than the visible ones: mostly another unit.
+//! Hidden numbers of quite another size than the visible ones, mostly another unit, and of the other sign.
 
+use kinemark_sim::text::Dimension;
 use kinemark_sim::text::number::short;
 
 use super::{Doubt, Rubric};
@@ -8,6 +9,60 @@ use crate::task::model::{Case, Given};
 
 /// Sizes that differ by more than this are another unit: degrees for radians are 57.
 const FAR: f64 = 20.0;
+
+/// Numbers of hidden runs whose sign is never that of the visible run, nor of any student's: a lost minus.
+pub(super) fn signs(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+    for task in &rubric.lab.tasks {
+        let runs = rubric.staff.runs(&task.name);
+        let mut classes: Vec<&str> = runs.iter().map(|run| run.class.as_str()).collect();
+        classes.dedup();
+        for class in classes {
+            let of_class = runs.iter().filter(|run| run.class == class);
+            let drawn: Vec<_> = of_class.map(|run| &run.drawn).collect();
+            let names = drawn.iter().take(1).flat_map(|drawn| drawn.iter());
+            for name in names.map(|(name, _)| name) {
+                let own = rubric.lab.parameters.get(name).map(numbers);
+                let own = own.unwrap_or_default();
+                let values: Vec<Vec<f64>> = drawn
+                    .iter()
+                    .flat_map(|drawn| drawn.iter())
+                    .filter(|(known, _)| known == name)
+                    .map(|(_, value)| numbers(value))
+                    .collect();
+                // of about its size, and all of the other sign
+                let is_turned = |i: usize, own: f64| {
+                    let mut values = values.iter().filter_map(|value| value.get(i));
+                    values.all(|x| x * own < 0.0 && x.abs() > 0.5 * own.abs())
+                };
+                let turned: Vec<usize> =
+                    (0..own.len()).filter(|i| is_turned(*i, own[*i])).collect();
+                // where all of a list is turned, that may be what the class is about
+                let [entry] = turned[..] else { continue };
+                if own.len() < 2 {
+                    continue;
+                }
+                doubts.push(Doubt {
+                    rule: "hidden",
+                    of: format!("{}/{class}", task.name),
+                    what: format!(
+                        "`{name}[{entry}]` is {} in lab.toml, and of the other sign in every run: is a minus missing?",
+                        short(own[entry])
+                    ),
+                    help: "draw numbers about those of lab.toml, or accept it with the reason"
+                        .to_owned(),
+                });
+            }
+        }
+    }
+}
+
+fn numbers(value: &Dimension) -> Vec<f64> {
+    match value {
+        Dimension::Number(number) => vec![*number],
+        Dimension::List(numbers) => numbers.clone(),
+        Dimension::Text(_) => Vec::new(),
+    }
+}
 
 /// Compares what each draw gives with the visible cases of its task, name by name.
 pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {

@@ -42,6 +42,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         doubts.extend(short_stays(task, motion, &checks));
         doubts.extend(other_target(task, motion));
         doubts.extend(other_body(rubric.lab, task, motion));
+        doubts.extend(trimmed_away(task, motion));
     }
     at_corners(rubric.lab, doubts);
 }
@@ -192,6 +193,28 @@ fn other_body(lab: &Lab, task: &Task, motion: &MotionTask) -> Option<Doubt> {
                     list(is.coords.as_slice())
                 ),
                 "write both from the same parameters, or call the key otherwise",
+            )
+        })
+    })
+}
+
+/// A path of which more than half does not count.
+fn trimmed_away(task: &Task, motion: &MotionTask) -> Option<Doubt> {
+    motion.paths.iter().find_map(|path| {
+        let segments = path.points_m.windows(2);
+        let shortest_m = segments
+            .map(|ends| (ends[1] - ends[0]).norm())
+            .reduce(f64::min)?;
+        let judged_m = shortest_m - 2.0 * path.trim_m;
+        (judged_m < 0.5 * shortest_m).then(|| {
+            doubt(
+                format!("{}/{}", task.name, path.name),
+                format!(
+                    "`trim_m` leaves {} of a segment of {}: most of it does not count",
+                    with_unit(judged_m.max(0.0), "m"),
+                    with_unit(shortest_m, "m")
+                ),
+                "lower `trim_m`: it is taken away at either end of each segment",
             )
         })
     })

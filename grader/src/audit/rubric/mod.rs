@@ -164,6 +164,7 @@ const RULES: &[Rule] = &[
         |rubric, doubts| {
             hidden::rule(rubric, doubts);
             far_draws::rule(rubric, doubts);
+            far_draws::signs(rubric, doubts);
             hidden::played_back(rubric, doubts);
         },
     ),
@@ -195,6 +196,7 @@ const RULES: &[Rule] = &[
     ("band", "points can be lost", |rubric, doubts| {
         band::rule(rubric, doubts);
         band::far_above(rubric, doubts);
+        band::predictions(rubric, doubts);
         related_bands::rule(rubric, doubts);
     }),
     (

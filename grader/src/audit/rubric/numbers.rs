@@ -45,6 +45,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         doubts.extend(of_masses(rubric.lab, &words, &typed));
         doubts.extend(of_ends(rubric.lab, &words));
         doubts.extend(of_counts(rubric.lab, &words));
+        doubts.extend(of_keys(rubric.lab, &words));
     }
 }
 
@@ -173,6 +174,31 @@ fn motions(lab: &Lab) -> impl Iterator<Item = (&Lab, &MotionTask)> {
     lab.tasks.iter().filter_map(|task| match &task.work {
         TaskWork::Motion(motion, _) => Some((lab.of_task(task), &**motion)),
         TaskWork::Function(..) => None,
+    })
+}
+
+/// A number right behind a key of the target, such as `` `max_rate`, 0.5 rad/s ``, that no target has.
+fn of_keys(lab: &Lab, words: &[&str]) -> Option<Doubt> {
+    stated(words).into_iter().find_map(|stated| {
+        let before = words.get(stated.at.checked_sub(1)?)?;
+        let code = before.strip_prefix('`')?.trim_end_matches([',', ':', ';']);
+        let code = code.strip_suffix('`')?;
+        let key = code.rsplit('.').next()?;
+        let given = motions(lab).filter_map(|(_, motion)| motion.target_number(key));
+        let given: Vec<f64> = given.collect();
+        let is_near = |given: &f64| (given - stated.value).abs() <= 0.005 * given.abs();
+        (!given.is_empty() && !given.iter().any(is_near)).then(|| {
+            let given: Vec<String> = given.iter().map(f64::to_string).collect();
+            doubt(
+                format!("target.{key}"),
+                format!(
+                    "the brief says {}, lab.toml {}",
+                    with_unit(stated.value, stated.unit),
+                    given.join(" and ")
+                ),
+                "write the same number, with a mark where it differs from student to student",
+            )
+        })
     })
 }
 

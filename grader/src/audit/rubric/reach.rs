@@ -52,10 +52,11 @@ pub(super) fn reach(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
 }
 
-/// The same in hidden runs, for what is not doubted in the visible one.
+/// The same in hidden runs, those that are drawn and at the ends of what they are drawn from, for what is not doubted in the visible one.
 fn of_hidden_runs(lab: &Lab, staff: &Staff, doubts: &mut Vec<Doubt>) {
     for task in &lab.tasks {
-        for run in staff.runs(&task.name) {
+        let drawn = staff.runs(&task.name).into_iter();
+        for run in drawn.chain(staff.runs_at_ends(&task.name)) {
             let mut tasks = run.lab.tasks.iter();
             let drawn = tasks.find(|drawn| drawn.name == task.name);
             let Some((drawn, TaskWork::Motion(motion, _))) = drawn.map(|task| (task, &task.work))

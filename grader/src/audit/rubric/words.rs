@@ -124,6 +124,15 @@ const OPPOSITES: [[&str; 2]; 4] = [
 /// Words of a moment at which something is touched.
 const TOUCHES: [&str; 6] = ["touch", "touches", "touched", "push", "pushed", "hits"];
 
+/// Words of a whole run.
+const WHOLE: [&str; 5] = [
+    "all the time",
+    "the whole time",
+    "the whole run",
+    "always",
+    "throughout",
+];
+
 /// A check whose title says the opposite of one of its keys, such as `side = "near"`.
 fn of_sides(table: &Table, doubts: &mut Vec<Doubt>) {
     for task in typed::tables(table, "tasks") {
@@ -143,6 +152,14 @@ fn of_sides(table: &Table, doubts: &mut Vec<Doubt>) {
                         "\"{title}\" is about a touch, and at = \"run\" looks at the whole run"
                     ),
                     "write at = \"touch\", or another title",
+                ));
+            }
+            let is_of_all = WHOLE.iter().any(|words| has_word(title, words));
+            if let (true, Some(last)) = (is_of_all, keys.get("last_s")) {
+                doubts.push(doubt(
+                    format!("{}/{}", typed::name(task), typed::name(check)),
+                    format!("\"{title}\" is about the whole run, and `last_s` = {last} looks at its last part"),
+                    "choose a kind of check that looks at the whole run, such as joint-tracking, or another title",
                 ));
             }
             let said = keys.iter().find_map(|(key, value)| {
@@ -541,6 +558,18 @@ mod tests {
         ] {
             let mut doubts = Vec::new();
             of_sides(&table(title), &mut doubts);
+            assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
+        }
+    }
+
+    #[test]
+    fn a_title_of_the_whole_run_with_a_check_of_its_last_part_is_found() {
+        for (title, count) in [("It is held all the time", 1), ("It stands at the end", 0)] {
+            let text = format!(
+                "[[tasks]]\nname = \"t\"\n[[tasks.checks]]\nname = \"c\"\ntitle = \"{title}\"\nsteady-error = {{ last_s = 0.5 }}\n"
+            );
+            let mut doubts = Vec::new();
+            of_sides(&text.parse::<Table>().expect("TOML"), &mut doubts);
             assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
         }
     }

@@ -30,13 +30,22 @@ problems! {
     }
 }
 
-/// The runs of one `[[runs]]` table, each a lab of its own.
+/// What one `[[runs]]` table asks for, each run a lab of its own.
+#[derive(Debug, Clone)]
+pub(super) struct RunsOfTable {
+    /// Those that are graded.
+    pub(super) runs: Vec<HiddenRun>,
+    /// What would be graded at the ends of the ranges, where these are tried; numbered from zero.
+    pub(super) ends: Vec<HiddenRun>,
+}
+
+/// The runs of one `[[runs]]` table.
 pub(super) fn hidden_runs(
     report: Reporter<'_>,
     lab: &Lab,
     (salt, ends): (&str, Ends),
     spanned: &Spanned<HiddenRunsTable>,
-) -> Result<Vec<HiddenRun>, LabError> {
+) -> Result<RunsOfTable, LabError> {
     let table = spanned.get_ref();
     is_of_a_motion(report, lab, spanned)?;
     let ranges = fitting_ranges(report, lab, spanned)?;
@@ -46,26 +55,31 @@ pub(super) fn hidden_runs(
             report.refuse_at(spanned, RunsProblem::Numbers { error })
         })
     };
-    // what can be loaded at both ends can be loaded between: expressions are monotone in practice
-    for &end in ends.to_try() {
-        let all = ranges.iter();
-        with(
-            all.map(|(name, ranges)| (name.get_ref().clone(), ranges.get_ref().end(end)))
-                .collect(),
-        )?;
-    }
     let class = table.class.get_ref();
-    (0..*table.count.get_ref())
-        .map(|number| {
-            let drawn = parameters(salt, table.task.get_ref(), class, number, ranges);
-            Ok(HiddenRun {
-                class: class.clone(),
-                number: number + 1,
-                lab: with(drawn.clone())?,
-                drawn,
-            })
+    let run = |number: u32, drawn: Vec<(String, Dimension)>| -> Result<HiddenRun, LabError> {
+        Ok(HiddenRun {
+            class: class.clone(),
+            number,
+            lab: with(drawn.clone())?,
+            drawn,
         })
-        .collect()
+    };
+    // what can be loaded at both ends can be loaded between: expressions are monotone in practice
+    let at_end = |&end: &usize| {
+        let all = ranges.iter();
+        let numbers = all.map(|(name, ranges)| (name.get_ref().clone(), ranges.get_ref().end(end)));
+        run(0, numbers.collect())
+    };
+    let drawn = |number: u32| {
+        let drawn = parameters(salt, table.task.get_ref(), class, number, ranges);
+        run(number + 1, drawn)
+    };
+    Ok(RunsOfTable {
+        ends: ends.to_try().iter().map(at_end).collect::<Result<_, _>>()?,
+        runs: (0..*table.count.get_ref())
+            .map(drawn)
+            .collect::<Result<_, _>>()?,
+    })
 }
 
 /// Refuses a task that is not a motion task, and a count beyond what a class can wait for.

@@ -17,7 +17,7 @@ use crate::task::model::Case;
 use crate::task::problem::{LabError, LoadError, near, problems};
 use crate::task::reporter::Reporter;
 use draws::{checked, drawn};
-use hidden_runs::hidden_runs;
+use hidden_runs::{RunsOfTable, hidden_runs};
 
 problems! {
     /// What is wrong with the staff's files, whatever they hide.
@@ -61,7 +61,7 @@ pub struct Staff {
     /// Hidden cases, draw by draw.
     pub draws: Vec<HiddenCases>,
     /// Hidden runs by task.
-    runs: Vec<(String, Vec<HiddenRun>)>,
+    runs: Vec<(String, RunsOfTable)>,
     /// BLAKE3 over all of it, salt included.
     pub digest: blake3::Hash,
     /// What digests of hidden parts are keyed by.
@@ -138,7 +138,7 @@ impl Mutant {
 struct Hidden {
     source: Option<Source>,
     draws: Vec<HiddenCases>,
-    runs: Vec<(String, Vec<HiddenRun>)>,
+    runs: Vec<(String, RunsOfTable)>,
     /// Without `hidden.toml` nothing is hidden, and nothing keyed.
     key: [u8; 32],
 }
@@ -241,10 +241,17 @@ impl Staff {
         }
     }
 
+    /// What hidden runs of a task would be at the ends of the ranges that they are drawn from: every number at the first, then at the
+    /// last. Empty where the part was loaded for a grade.
+    pub fn runs_at_ends(&self, task: &str) -> Vec<&HiddenRun> {
+        let of_task = self.runs.iter().filter(|(name, _)| name == task);
+        of_task.flat_map(|(_, of_table)| &of_table.ends).collect()
+    }
+
     /// The hidden runs of a task.
     pub fn runs(&self, task: &str) -> Vec<&HiddenRun> {
         let of_task = self.runs.iter().filter(|(name, _)| name == task);
-        of_task.flat_map(|(_, runs)| runs).collect()
+        of_task.flat_map(|(_, of_table)| &of_table.runs).collect()
     }
 
     /// The hidden cases of a task.
