@@ -479,6 +479,27 @@ fn every_fault_is_found_with_its_place_and_numbers() {
             "touch/goal 1 in class \"another place\": [2.5, 2, 0.05] is out of reach",
         ),
         (
+            "hidden.toml",
+            "[[draws]]\n",
+            "[[draws]]\ntask = \"fk\"\nclass = \"many\"\ncount = 95\nq_rad = [[-2.0, 2.0], [-2.0, 2.0]]\n\n[[draws]]\n",
+            "hidden",
+            "fk/many: 95 of the 100 hidden cases of the task are of this class",
+        ),
+        (
+            "hidden.toml",
+            "q_rad = [[-3.0, 3.0], [-3.0, 3.0]]",
+            "q_rad = [[0.3, 0.3], [0.5, 0.5]]\ndimensions = { link_lengths = [[0.7, 0.9], [1.1, 1.3]] }",
+            "hidden",
+            "fk/other angles: the joints are at the same positions in all of its cases",
+        ),
+        (
+            "lab.toml",
+            "duration_s = 3.0\n",
+            "duration_s = 3.0\nsensors = [{ name = \"end\", type = \"limit-switch\", joint = \"elbow\", side = \"upper\", at = 1.0, hysteresis = 2.0 }]\n",
+            "settings",
+            "touch/end: its hysteresis is 2, and joint `elbow` moves by 12.",
+        ),
+        (
             "lab.toml",
             "trim_m = 0.05",
             "trim_m = 0.16",
@@ -1081,6 +1102,42 @@ fn branches_of_poses_are_counted_and_what_cannot_be_counted_is_not_doubted() {
             ),
         }
     });
+}
+
+/// A row of joints has no limits, and 90 rad is an angle like any.
+#[test]
+fn degrees_of_joints_without_limits_are_doubted() {
+    for (angle, count) in [("90.0", 1), ("9.0", 0)] {
+        let text = POSES
+            .replace(
+                "ik-reach = { full_m = 1e-3, zero_m = 1e-2, full_rad = 1e-3, zero_rad = 1e-2 }",
+                "fk-error = { full_m = 1e-3, zero_m = 1e-2 }",
+            )
+            .replace("inverse_kinematics", "forward_kinematics")
+            .replace(
+                "FORM",
+                &format!("cases = [{{ name = \"a\", q_rad = [{angle}, 0.2, 0.3, 0.1] }}]"),
+            );
+        let own = OwnLab::new("94-poses", text)
+            .and(
+                "hidden.toml",
+                "format = 1\nsalt = \"a long one that nobody can guess\"\n",
+            )
+            .and("solution.rhai", "fn forward_kinematics(robot, q) { [] }\n");
+        let found = problems(&rows(
+            &own,
+            "Write `forward_kinematics`.",
+            &Accepted::default(),
+        ));
+        let of_reach: Vec<_> = found.iter().filter(|(rule, _)| rule == "reach").collect();
+        assert_eq!(of_reach.len(), count, "{found:#?}");
+        assert!(
+            of_reach
+                .iter()
+                .all(|(_, problem)| problem.contains("more than 2 turns: are these degrees?")),
+            "{found:#?}"
+        );
+    }
 }
 
 #[test]

@@ -401,3 +401,31 @@ fn a_hidden_number_that_lost_its_minus_is_doubted() {
     let words = "go/elsewhere: `unheard[1]` is -0.4 in lab.toml, and of the other sign in every run: is a minus missing?";
     assert_eq!(found_by("hidden", &lab("[0.3, 0.5]")), [words]);
 }
+
+#[test]
+fn a_title_about_a_body_that_is_not_read_is_doubted_though_the_other_one_is() {
+    let lab = |title: &str| {
+        motion_lab().with(
+            "lab.toml",
+            "target = { goal_rad",
+            "scene = \"shelf-and-can\"\ntarget = { goal_rad",
+        )
+        .with(
+            "lab.toml",
+            "[[tasks]]\nname = \"lever\"",
+            &format!(
+                "[[tasks.checks]]\nname = \"clear\"\ntitle = \"{title}\"\npoints = 1.0\nnever = {{ touch = [\"arm\", \"shelf\"] }}\n\n\
+                 [[tasks]]\nname = \"lever\""
+            ),
+        )
+    };
+    assert_eq!(
+        found_by("words", &lab("The arm does not touch the shelf")),
+        [""; 0]
+    );
+    let words = "go/clear: \"The can does not touch the shelf\" is about `can`, and reads the touch of `arm` and `shelf`";
+    assert_eq!(
+        found_by("words", &lab("The can does not touch the shelf")),
+        [words]
+    );
+}

@@ -9,6 +9,12 @@ pub(in crate::audit) fn table(lab: &Lab) -> Option<Table> {
     lab.source.text().parse().ok()
 }
 
+/// A number, with a point or without.
+pub(in crate::audit) fn number(value: &Value) -> Option<f64> {
+    let integer = || value.as_integer().map(|integer| integer as f64);
+    value.as_float().or_else(integer)
+}
+
 /// The tables of the list called `list`.
 pub(in crate::audit) fn tables<'t>(table: &'t Table, list: &str) -> Vec<&'t Table> {
     let items = table.get(list).and_then(Value::as_array);

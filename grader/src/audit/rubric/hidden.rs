@@ -37,6 +37,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                     doubts.push(nothing_hidden(task, ("cases", "draws")));
                 }
                 doubts.extend(drawn_twice(task, &hidden));
+                doubts.extend(outnumbered(task, &hidden));
                 for draw in hidden {
                     let of = |case: &Case| {
                         let class = case.hidden_class.as_deref().unwrap_or_default();
@@ -56,6 +57,13 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                                 "all of its cases have the same numbers: its ranges have no width"
                                     .to_owned(),
                             help: "widen the ranges of the draw, or let `count` be 1".to_owned(),
+                        });
+                    } else if is_of_one_position(&draw.cases) {
+                        doubts.push(Doubt {
+                            rule: "hidden",
+                            of: of(first),
+                            what: "the joints are at the same positions in all of its cases".to_owned(),
+                            help: "widen the ranges of `q_rad`: one position cannot show what is wrong at others".to_owned(),
                         });
                     } else if draw
                         .cases
@@ -81,6 +89,37 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             TaskWork::Motion(..) => of_runs(lab, staff, task, doubts),
         }
     }
+}
+
+/// Whether several cases have one and the same joint positions.
+fn is_of_one_position(cases: &[Case]) -> bool {
+    let q = |case: &Case| match &case.given {
+        Given::Q(q) => Some(q.clone()),
+        Given::Motion(rows) => rows.first().cloned(),
+        Given::Position { .. } | Given::Values { .. } => None,
+    };
+    let first = cases.first().and_then(q);
+    cases.len() > 1 && first.is_some() && cases.iter().all(|case| q(case) == first)
+}
+
+/// A class with more cases than this share decides alone.
+const MOST_OF_A_CLASS: f64 = 0.9;
+
+/// A class of hidden cases beside which the others do not count: who is right in it alone has nearly all points.
+fn outnumbered(task: &Task, hidden: &[&HiddenCases]) -> Option<Doubt> {
+    let all: usize = hidden.iter().map(|draw| draw.cases.len()).sum();
+    let most = hidden.iter().max_by_key(|draw| draw.cases.len())?;
+    let class = most.cases.first()?.hidden_class.as_deref()?;
+    let count = most.cases.len();
+    let decides = count < all && count as f64 > MOST_OF_A_CLASS * all as f64;
+    decides.then(|| Doubt {
+        rule: "hidden",
+        of: format!("{}/{class}", task.name),
+        what: format!(
+            "{count} of the {all} hidden cases of the task are of this class: who is wrong in all others loses next to nothing"
+        ),
+        help: "draw about as many cases of each class".to_owned(),
+    })
 }
 
 /// The hidden runs of a motion task.

@@ -95,12 +95,29 @@ fn robot_of<'a>(lab: &'a Lab, task: &'a Task, case: &'a Case) -> &'a Robot {
     case.robot.as_deref().unwrap_or(&lab.of_task(task).robot)
 }
 
+/// Angles beyond so many turns are degrees.
+const MOST_TURNS: f64 = 2.0;
+
+/// A joint without limits that is turned by many turns.
+fn many_turns(robot: &Robot, q: &[f64]) -> Option<String> {
+    let mut joints = robot.moving_joints().zip(q);
+    let (joint, angle) = joints.find(|(joint, angle)| {
+        let turns = angle.abs() / (2.0 * std::f64::consts::PI);
+        joint.kind.turns() && turns > MOST_TURNS
+    })?;
+    Some(format!(
+        "joint `{}` would be at {angle} rad, more than {MOST_TURNS} turns: are these degrees?",
+        joint.name
+    ))
+}
+
 fn angles_within_limits(lab: &Lab, task: &Task, case: &Case) -> Option<Doubt> {
     let Given::Q(q) = &case.given else {
         return None;
     };
+    let robot = robot_of(lab, task, case);
     // degrees would be many whole turns
-    let beyond = stands_beyond_limit(robot_of(lab, task, case), q)?;
+    let beyond = stands_beyond_limit(robot, q).or_else(|| many_turns(robot, q))?;
     Some(Doubt {
         rule: "reach",
         of: case_name(task, case),

@@ -56,10 +56,7 @@ struct Typed<'t> {
 
 impl Typed<'_> {
     fn number(&self, key: &str) -> Option<f64> {
-        let value = self.keys.get(key)?;
-        value
-            .as_float()
-            .or_else(|| value.as_integer().map(|x| x as f64))
+        typed::number(self.keys.get(key)?)
     }
 
     fn is_of_path_of(&self, other: &Self) -> bool {

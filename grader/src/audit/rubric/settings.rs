@@ -2,7 +2,7 @@
 
 use kinemark_sim::control::Mode;
 use kinemark_sim::text::number::{list, metres};
-use toml::{Table, Value};
+use toml::Table;
 
 use super::{Doubt, Rubric};
 use crate::audit::typed;
@@ -57,6 +57,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             continue;
         };
         doubts.extend(of_target(&task.name, motion));
+        doubts.extend(wide_switch(lab.of_task(task), &task.name, &typed));
         doubts.extend(long_run(rubric, &task.name, motion, &typed));
         doubts.extend(above_robot(lab.of_task(task), &task.name, &typed));
         let has_gain = motion.servo.gains.iter().any(|gains| {
@@ -74,6 +75,30 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             });
         }
     }
+}
+
+/// A limit switch that reads true over more than this share of the joint's range says nothing.
+const WIDE_SWITCH: f64 = 0.1;
+
+/// A limit switch with a hysteresis of another unit.
+fn wide_switch(lab: &Lab, task: &str, typed: &Table) -> Option<Doubt> {
+    let motion = typed::named(typed, "tasks", task)?.get("motion")?;
+    let sensors = typed::tables(motion.as_table()?, "sensors");
+    sensors.into_iter().find_map(|sensor| {
+        let hysteresis = typed::number(sensor.get("hysteresis")?)?;
+        let name = sensor.get("joint")?.as_str()?;
+        let mut joints = lab.robot.moving_joints();
+        let limits = &joints.find(|joint| joint.name == name)?.limits;
+        let range = limits.upper? - limits.lower?;
+        (hysteresis > WIDE_SWITCH * range).then(|| Doubt {
+            rule: "settings",
+            of: format!("{task}/{}", typed::name(sensor)),
+            what: format!(
+                "its hysteresis is {hysteresis}, and joint `{name}` moves by {range} from limit to limit: once pressed it is hardly let go"
+            ),
+            help: "write the hysteresis in metres or radians".to_owned(),
+        })
+    })
 }
 
 /// A run goes on for so many times what the reference solution needs, and for at least so long \[s\].
@@ -145,14 +170,9 @@ fn above_robot(lab: &Lab, task: &str, typed: &Table) -> Option<Doubt> {
     let servo = typed::named(typed, "tasks", task)?
         .get("motion")?
         .get("servo")?;
-    let number = |value: &Value| {
-        value
-            .as_float()
-            .or_else(|| value.as_integer().map(|x| x as f64))
-    };
     // one number for all joints is an upper bound, and no joint's own
     let limits = servo.get("effort_limit")?.as_array()?.iter();
-    let limits: Vec<f64> = limits.map(number).collect::<Option<_>>()?;
+    let limits: Vec<f64> = limits.map(typed::number).collect::<Option<_>>()?;
     let mut joints = lab.robot.moving_joints().zip(limits);
     let (joint, of_servo, of_robot) = joints.find_map(|(joint, of_servo)| {
         let of_robot = joint.limits.effort?;

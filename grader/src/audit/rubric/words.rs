@@ -155,10 +155,17 @@ fn of_sides(table: &Table, doubts: &mut Vec<Doubt>) {
                 ));
             }
             let is_of_all = WHOLE.iter().any(|words| has_word(title, words));
-            if let (true, Some(last)) = (is_of_all, keys.get("last_s")) {
+            let run_s = task
+                .get("motion")
+                .and_then(|motion| typed::number(motion.get("duration_s")?));
+            let part = ["last_s", "hold_s"].into_iter().find_map(|key| {
+                let part_s = typed::number(keys.get(key)?)?;
+                (2.0 * part_s < run_s.unwrap_or(f64::INFINITY)).then_some((key, part_s))
+            });
+            if let (true, Some((key, part_s))) = (is_of_all, part) {
                 doubts.push(doubt(
                     format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!("\"{title}\" is about the whole run, and `last_s` = {last} looks at its last part"),
+                    format!("\"{title}\" is about the whole run, and `{key}` = {part_s} looks at its last part"),
                     "choose a kind of check that looks at the whole run, such as joint-tracking, or another title",
                 ));
             }
@@ -460,7 +467,12 @@ fn of_names(lab: &Lab, task: &Task, typed: &Toml, doubts: &mut Vec<Doubt>) {
             let says = |name: &&&str| has_word(&words, name);
             let other = known.iter().filter(|name| !read.contains(name)).find(says);
             let bodies_read = read.iter().filter(|name| known.contains(name));
-            if let (Some(other), 0) = (other, bodies_read.filter(says).count()) {
+            let is_of_another = bodies_read.filter(says).count() == 0;
+            // "the part does not touch the fence", and the arm and the fence are read
+            let is_of_touch = TOUCHES.iter().any(|word| has_word(&words, word));
+            let has_unsaid =
+                key != "joint" && is_of_touch && !read.iter().all(|name| has_word(&words, name));
+            if let (Some(other), true) = (other, is_of_another || has_unsaid) {
                 doubts.push(doubt(
                     format!("{}/{}", task.name, check.name),
                     format!(
@@ -564,9 +576,26 @@ mod tests {
 
     #[test]
     fn a_title_of_the_whole_run_with_a_check_of_its_last_part_is_found() {
-        for (title, count) in [("It is held all the time", 1), ("It stands at the end", 0)] {
+        for (title, check, count) in [
+            (
+                "It is held all the time",
+                "steady-error = { last_s = 0.5 }",
+                1,
+            ),
+            (
+                "It is held all the time",
+                "joint-reached = { hold_s = 0.5 }",
+                1,
+            ),
+            (
+                "It is held all the time",
+                "joint-reached = { hold_s = 2.0 }",
+                0,
+            ),
+            ("It stands at the end", "steady-error = { last_s = 0.5 }", 0),
+        ] {
             let text = format!(
-                "[[tasks]]\nname = \"t\"\n[[tasks.checks]]\nname = \"c\"\ntitle = \"{title}\"\nsteady-error = {{ last_s = 0.5 }}\n"
+                "[[tasks]]\nname = \"t\"\nmotion = {{ duration_s = 2.0 }}\n[[tasks.checks]]\nname = \"c\"\ntitle = \"{title}\"\n{check}\n"
             );
             let mut doubts = Vec::new();
             of_sides(&text.parse::<Table>().expect("TOML"), &mut doubts);
