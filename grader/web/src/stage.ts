@@ -27,6 +27,8 @@ const COARSER = 2;
 /** So many pictures in a row with less than twenty a second are too much with shadows. */
 const SLOW_MS = 50;
 const MOST_SLOW = 12;
+/** A picture for paper is at least so wide \[px\], however narrow its place on the screen is. */
+const PAPER_PIXELS = 640;
 /** What moved coarsely is sharp again this long after it stopped \[ms\]. */
 const SETTLE_MS = 250;
 /** How long a context that was lost is waited for \[ms\], and how often; losses this far apart are each the first. */
@@ -214,14 +216,14 @@ export class Stage implements View {
     this.invalidate();
   }
 
-  /** Draws every so many pixels; a machine that cannot keep up moves coarsely rather than by jumps. */
-  private sharpen(coarse: boolean): void {
+  /** Draws every so many pixels, `least` of them in a row; a machine that cannot keep up moves coarsely rather than by jumps. */
+  private sharpen(coarse: boolean, least = 0): void {
     if (!this.drawn || this.waits) return;
     const { renderer } = this.drawn;
     this.coarse = coarse;
     this.late = 0;
     this.pixels = devicePixelRatio;
-    const ratio = Math.max(LEAST_PIXELS, Math.min(MOST_PIXELS, this.pixels) / (coarse ? COARSER : 1));
+    const ratio = Math.max(LEAST_PIXELS, Math.min(MOST_PIXELS, this.pixels) / (coarse ? COARSER : 1), least / this.width);
     renderer.setPixelRatio(ratio);
     renderer.setSize(this.width, this.height);
     // a canvas is empty once its size changed, so it is not left so until the next frame
@@ -289,12 +291,12 @@ export class Stage implements View {
     const { renderer, canvas } = this.drawn;
     this.scene.colour(LIGHT);
     renderer.setClearColor(0xffffff, 1);
-    this.sharpen(false);
+    this.sharpen(false, PAPER_PIXELS);
     const url = this.parts.frames ? this.labels.onto(canvas) : canvas.toDataURL("image/png");
     renderer.setClearColor(0xffffff, 0);
     this.scene.colour(theme());
     if (away) this.release();
-    else this.draw(performance.now());
+    else this.sharpen(false);
     return url;
   }
 }
