@@ -118,30 +118,6 @@ fn is_far_above(measure: &Measure) -> bool {
             .is_some_and(|value| value > 0.0 && measure.full > FAR_ABOVE * value)
 }
 
-/// Bands of speeds, jerks, energies and the like, for which nothing says what can be: far above what the reference solution reaches.
-pub(super) fn far_above(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
-    for (task, grade) in rubric.graded_tasks() {
-        for check in &grade.checks {
-            let measure = check.measure.as_ref();
-            let Some((measure, value)) = measure.and_then(|m| Some((m, m.value?))) else {
-                continue;
-            };
-            if is_far_above(measure) {
-                doubts.push(Doubt {
-                    rule: "band",
-                    of: format!("{}/{}", task.name, check.name),
-                    what: format!(
-                        "all points up to {}, and the reference solution reaches {}: hardly anybody can lose one",
-                        with_unit(measure.full, &measure.unit),
-                        with_unit(value, &measure.unit)
-                    ),
-                    help: "narrow the band: `full` is the worst that still earns everything".to_owned(),
-                });
-            }
-        }
-    }
-}
-
 /// What is predicted on paper should be about what the reference solution does.
 const UNLIKE: f64 = 0.5;
 
@@ -155,28 +131,43 @@ fn is_unlike(measure: &Measure) -> bool {
     apart > UNLIKE * value.abs().max(predicted.abs()) && apart > 0.1 * width
 }
 
-/// Predictions of quite another number than the reference solution reaches: of another arm, or of another loop.
-pub(super) fn predictions(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
+/// Bands against what the reference solution reaches: those of speeds, jerks, energies and the like, for which nothing says what can be, far
+/// above it; predictions of quite another number, of another arm or another loop.
+pub(super) fn against_reference(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     for (task, grade) in rubric.graded_tasks() {
         for check in &grade.checks {
             let measure = check.measure.as_ref();
-            let Some((measure, value, predicted)) =
-                measure.and_then(|m| Some((m, m.value?, m.prediction?)))
-            else {
+            let Some((measure, value)) = measure.and_then(|m| Some((m, m.value?))) else {
                 continue;
             };
-            if is_unlike(measure) {
+            let in_words = |number: f64| with_unit(number, &measure.unit);
+            let mut doubt = |what: String, help: &str| {
                 doubts.push(Doubt {
                     rule: "band",
                     of: format!("{}/{}", task.name, check.name),
-                    what: format!(
-                        "the prediction is {}, and the reference solution reaches {}",
-                        with_unit(predicted, &measure.unit),
-                        with_unit(value, &measure.unit)
-                    ),
-                    help: "is `prediction` of this joint, with this inertia and these gains? Students see it beside their curve"
-                        .to_owned(),
+                    what,
+                    help: help.to_owned(),
                 });
+            };
+            if is_far_above(measure) {
+                doubt(
+                    format!(
+                        "all points up to {}, and the reference solution reaches {}: hardly anybody can lose one",
+                        in_words(measure.full),
+                        in_words(value)
+                    ),
+                    "narrow the band: `full` is the worst that still earns everything",
+                );
+            }
+            if let Some(predicted) = measure.prediction.filter(|_| is_unlike(measure)) {
+                doubt(
+                    format!(
+                        "the prediction is {}, and the reference solution reaches {}",
+                        in_words(predicted),
+                        in_words(value)
+                    ),
+                    "is `prediction` of this joint, with this inertia and these gains? Students see it beside their curve",
+                );
             }
         }
     }

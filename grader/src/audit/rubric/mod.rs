@@ -195,8 +195,7 @@ const RULES: &[Rule] = &[
     ),
     ("band", "points can be lost", |rubric, doubts| {
         band::rule(rubric, doubts);
-        band::far_above(rubric, doubts);
-        band::predictions(rubric, doubts);
+        band::against_reference(rubric, doubts);
         related_bands::rule(rubric, doubts);
     }),
     (

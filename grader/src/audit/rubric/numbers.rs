@@ -1,8 +1,10 @@
 //! Numbers with a unit that titles, hints and the brief say, against those of the check, the robot and the scene.
 
+use kinemark_sim::text::Dimension;
 use toml::{Table, Value};
 
 use super::times::sentences;
+use super::words::doubt;
 use super::{Doubt, Rubric};
 use crate::audit::quantities::{bare, is_same, stated, typed_at};
 use crate::audit::typed;
@@ -46,15 +48,6 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         doubts.extend(of_ends(rubric.lab, &words));
         doubts.extend(of_counts(rubric.lab, &words));
         doubts.extend(of_keys(rubric.lab, &words));
-    }
-}
-
-fn doubt(of: String, what: String, help: &str) -> Doubt {
-    Doubt {
-        rule: "words",
-        of,
-        what,
-        help: help.to_owned(),
     }
 }
 
@@ -225,7 +218,7 @@ fn of_masses(lab: &Lab, words: &[&str], typed: &[(f64, &str)]) -> Option<Doubt> 
     known.extend(bodies.chain(of_tasks).map(|body| body.inertia.mass_kg));
     // a mass may be a number of the lab's own
     known.extend(lab.parameters.iter().filter_map(|(_, value)| match value {
-        kinemark_sim::text::Dimension::Number(number) => Some(*number),
+        Dimension::Number(number) => Some(*number),
         _ => None,
     }));
     let is_known = |mass_kg: f64| {

@@ -237,7 +237,7 @@ fn of_title(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
     }
 }
 
-fn doubt(of: String, what: String, help: &str) -> Doubt {
+pub(super) fn doubt(of: String, what: String, help: &str) -> Doubt {
     Doubt {
         rule: "words",
         of,
