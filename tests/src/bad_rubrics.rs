@@ -159,12 +159,12 @@ count = 1
 parameters = { out = [1.05, 1.25] }
 "#;
 
-const BRIEF: &str = "Write `forward_kinematics`, `inverse_kinematics` and `control`. `observation.target.effort_n_m` is in N m; \
+pub(crate) const BRIEF: &str = "Write `forward_kinematics`, `inverse_kinematics` and `control`. `observation.target.effort_n_m` is in N m; \
                      `robot.gravity(q)` is there in the last task.\n";
 
 const SOLUTION: &str = "fn control(observation) {\n    if observation.task == \"push\" { return [observation.target.effort_n_m, 0.0]; }\n    [0.0, 0.0]\n}\n";
 
-fn own_lab() -> OwnLab {
+pub(crate) fn own_lab() -> OwnLab {
     OwnLab::new("94-rubric", LAB)
         .and("hidden.toml", HIDDEN)
         .and("solution.rhai", SOLUTION)
@@ -175,7 +175,7 @@ pub(crate) fn staff_of(own: &OwnLab, lab: &Lab) -> Staff {
 }
 
 /// The rows of the rules that need no grade.
-fn rows(own: &OwnLab, brief: &str, accepted: &Accepted) -> Vec<Row> {
+pub(crate) fn rows(own: &OwnLab, brief: &str, accepted: &Accepted) -> Vec<Row> {
     let lab = own.lab();
     let staff = staff_of(own, &lab);
     let salt = Staff::salt(own as &dyn Files, &lab.name, None).expect("hidden.toml");
@@ -762,167 +762,6 @@ fn an_orientation_that_loses_points_beyond_half_a_turn_alone_is_doubted() {
 }
 
 #[test]
-fn words_of_the_brief_are_held_to_what_is_graded() {
-    for (said, words) in [
-        (
-            "# 1. fk: forward kinematics (5 points, 30 minutes)",
-            Some("fk: the brief's heading says 5 points, the checks of the task have 4"),
-        ),
-        ("# 1. fk: forward kinematics (4 points, 30 minutes)", None),
-        (
-            "`target.effort_n_m` = 3.0 is the effort.",
-            Some("target.effort_n_m: the brief says 3, lab.toml 2"),
-        ),
-        ("`target.effort_n_m` = 2 is the effort.", None),
-        (
-            "Push with `effort_n_m`, 3 N m.",
-            Some("target.effort_n_m: the brief says 3 N m, lab.toml 2"),
-        ),
-        ("Push with `effort_n_m`, 2 N m.", None),
-        (
-            "A call may use 1000 operations.",
-            Some("budgets: the brief says 1000 operations, a call has 25000"),
-        ),
-        (
-            "A call may use 1000 operations on average, at most 25,000 operations.",
-            None,
-        ),
-        (
-            "The other place is at 1.25 m.",
-            Some("out: the brief says 1.25, which differs from student to student, without a mark"),
-        ),
-        ("The other place is at 1.25<!-- = out --> m.", None),
-        (
-            "The other place is at 1<!-- out --> m.",
-            Some("line 2: `<!-- out -->` stands behind a number in the brief, and is no mark"),
-        ),
-        (
-            "The run takes 8 s.",
-            Some("brief: it says a time of 8 s, and in lab.toml runs take 3 s and 1 s"),
-        ),
-        (
-            "At the place, stay for 0.2 s.",
-            Some("brief: it says a time of 0.2 s"),
-        ),
-        ("At the place, stay for 0.5 s.", None),
-        (
-            "| `control(observation)` | every 10 ms | setpoints in degrees |",
-            Some("control: the brief says that `control` returns something in degrees"),
-        ),
-        (
-            "| the shoulder above the ground | `robot.base_height` | 1.5 m |",
-            Some("robot.base_height: the brief says 1.5 m, and the robot has 2 m"),
-        ),
-        (
-            "| the arm | `robot.link_lengths[0]`, `robot.link_lengths[1]` | 1 m, 100 cm |",
-            None,
-        ),
-        ("The run takes 3 s.", None),
-        (
-            "The motors give at most 80 N m at the shoulder.",
-            Some("effort_limit of shoulder: the brief says 80 N m, and the servo has 100 N m"),
-        ),
-        ("The motors give at most 100 N m at the shoulder.", None),
-        ("Gravity takes 80 N m at the shoulder.", None),
-        (
-            "It carries 3.7 kg.",
-            Some("3.7 kg: the brief says so, and neither a link, nor a body, nor lab.toml"),
-        ),
-        ("Each link has a mass of 0.5 kg.", None),
-        (
-            "The first and last 80 mm do not count.",
-            Some("trim_m: the brief says that the first and last 80.0 mm do not count"),
-        ),
-        ("The first and last 5 cm do not count.", None),
-        (
-            "Go to all three places.",
-            Some("goals: the brief says \"three places\", and tasks have 1"),
-        ),
-        (
-            "`control` is called every 7 ms.",
-            Some("brief: it says a call every 0.007 s, and in lab.toml calls are every 0.01 s"),
-        ),
-        ("`control` is called 100 times a second.", None),
-    ] {
-        let own = own_lab().with(
-            "lab.toml",
-            "[parameters]\nout = 1.2",
-            "[parameters]\nout = 1.25",
-        );
-        let found = problems(&rows(
-            &own,
-            &format!("{BRIEF}{said}\n"),
-            &Accepted::default(),
-        ));
-        let of_words: Vec<&str> = found
-            .iter()
-            .filter(|(rule, _)| rule == "words")
-            .map(|(_, problem)| problem.as_str())
-            .collect();
-        match words {
-            None => assert_eq!(of_words, [""; 0], "{said}"),
-            Some(words) => assert!(
-                of_words.len() == 1 && of_words[0].starts_with(words),
-                "{said}: {of_words:?}"
-            ),
-        }
-    }
-}
-
-#[test]
-fn what_the_brief_calls_by_another_name_or_number_is_doubted() {
-    let goals_alone = own_lab().with("lab.toml", "target = { effort_n_m = 2.0 }\n", "");
-    let texts = [
-        (
-            own_lab(),
-            format!("{BRIEF}It is called as `inverse_kinematics(position, robot)`.\n"),
-            "names",
-            "brief: it says `inverse_kinematics(position, robot)`, and the function is called as `inverse_kinematics(robot, position)`",
-        ),
-        (
-            own_lab(),
-            format!("{BRIEF}Read `observation.torque`.\n"),
-            "names",
-            "brief: it mentions `observation.torque`, which there is not",
-        ),
-        (
-            goals_alone,
-            BRIEF.replace("effort_n_m", "right"),
-            "names",
-            "brief: it mentions `observation.target.right`, and the target is the list of goals",
-        ),
-        (
-            own_lab(),
-            format!("{BRIEF}The servo has kp = 500 and kd = 30.\n"),
-            "brief",
-            "touch/kp: the servo has kp = 1000, and the brief, which speaks of such gains, has no such number",
-        ),
-        (
-            own_lab(),
-            format!("{BRIEF}Each servo is a spring of 500 N m/rad.\n"),
-            "brief",
-            "touch/kp: the servo has kp = 1000",
-        ),
-        (
-            own_lab(),
-            format!("# Lab 7: gardening\n\n{BRIEF}"),
-            "words",
-            "title: the lab is called \"A rubric without faults\", and the brief begins with \"Lab 7: gardening\"",
-        ),
-    ];
-    for (own, brief, rule, words) in texts {
-        let found = problems(&rows(&own, &brief, &Accepted::default()));
-        let hit = |(name, problem): &(String, String)| name == rule && problem.starts_with(words);
-        assert!(found.iter().any(hit), "{words}: {found:#?}");
-    }
-    let right = format!(
-        "# Rubric\n\n{BRIEF}The servo has kp = 1000 and kd = 30. `observation.tcp_rotation` and `observation.target[0]`.\n"
-    );
-    let found = problems(&rows(&own_lab(), &right, &Accepted::default()));
-    assert_eq!(found, []);
-}
-
-#[test]
 fn hints_of_another_check_are_doubted() {
     let hints = "hints = [\"When does it arrive?\"]\n";
     let own = own_lab()
@@ -948,26 +787,6 @@ fn hints_of_another_check_are_doubted() {
 }
 
 #[test]
-fn a_brief_without_its_functions_is_doubted_once_each() {
-    let found = problems(&rows(&own_lab(), "Good luck.", &Accepted::default()));
-    let of: Vec<&str> = found
-        .iter()
-        .filter_map(|(_, problem)| problem.split_once(": "))
-        .map(|(of, _)| of)
-        .collect();
-    assert_eq!(
-        of,
-        [
-            "forward_kinematics",
-            "inverse_kinematics",
-            "control",
-            "effort_n_m",
-            "gravity"
-        ]
-    );
-}
-
-#[test]
 fn a_doubt_is_accepted_with_a_reason_and_an_idle_entry_is_a_problem() {
     let faulty = own_lab().with("hidden.toml", "a long one that nobody can guess", "a");
     let entry = |rule: &str, because: &str| {
@@ -987,156 +806,6 @@ fn a_doubt_is_accepted_with_a_reason_and_an_idle_entry_is_a_problem() {
     for (rule, because, words) in [("sald", "a test", "UnknownRule"), ("salt", " ", "NoReason")] {
         let error = load(own_lab().and("accepted.toml", entry(rule, because))).expect_err(words);
         assert!(format!("{error:?}").contains(words), "{error:?}");
-    }
-}
-
-/// Two turning joints with links of 0.4 m and 0.3 m, a wrist that turns, and a lift: what many pick and place with.
-const POSES: &str = r#"
-format = 1
-name = "94-poses"
-title = "Poses"
-robot = "RzRzRzTz"
-
-[dimensions]
-link1 = [0.4, 0.0, 0.0]
-link2 = [0.3, 0.0, 0.0]
-link3 = [0.0, 0.0, -0.1]
-link4 = [0.0, 0.0, -0.1]
-
-[[tasks]]
-name = "ik"
-title = "Inverse kinematics"
-
-[tasks.function]
-call = "inverse_kinematics"
-FORM
-
-[[tasks.checks]]
-name = "reach"
-title = "One branch reaches"
-points = 2.0
-ik-reach = { full_m = 1e-3, zero_m = 1e-2, full_rad = 1e-3, zero_rad = 1e-2 }
-"#;
-
-#[test]
-fn branches_of_poses_are_counted_and_what_cannot_be_counted_is_not_doubted() {
-    let yaw = |place: &str, rest: &str| {
-        format!(
-            "pose = \"yaw\"\ncases = [{{ name = \"a\", position_m = {place}, yaw_deg = 90{rest} }}]"
-        )
-    };
-    let full = |rpy: &str| {
-        format!(
-            "pose = \"full\"\ncases = [{{ name = \"a\", position_m = [0.5, 0.2, -0.1], rpy_deg = {rpy} }}]"
-        )
-    };
-    let axis = |direction: &str| {
-        format!(
-            "pose = \"axis\"\ncases = [{{ name = \"a\", position_m = [0.5, 0.2, -0.1], axis = {direction} }}]"
-        )
-    };
-    let cases = [
-        ("a heading", yaw("[0.5, 0.2, -0.1]", ""), None),
-        (
-            "one too few",
-            yaw("[0.5, 0.2, -0.1]", ", branches = 1"),
-            Some("2 branches reach [0.5, 0.2, -0.1, 1.5708] within the limits"),
-        ),
-        (
-            "too far",
-            yaw("[0.6, 0.5, -0.1]", ""),
-            Some("is out of reach by 8"),
-        ),
-        (
-            "nothing there",
-            yaw("[0.6, 0.5, -0.1]", ", branches = 0"),
-            None,
-        ),
-        ("a whole pose", full("[0, 0, 90]"), None),
-        // the lift is vertical
-        (
-            "tilted",
-            full("[0, 30, 90]"),
-            Some("the pose at [0.5, 0.2, -0.1] is out of reach by"),
-        ),
-        // the wrist is free: as many branches as one likes
-        ("upright", axis("[0, 0, 1]"), None),
-        (
-            "lying",
-            axis("[1, 0, 0]"),
-            Some("within the limits of the joints, and 2 branches are stated"),
-        ),
-        (
-            "the wrist left out",
-            format!("ignore = [\"joint3\"]\n{}", yaw("[0.5, 0.2, -0.1]", "")),
-            Some("is out of reach by"),
-        ),
-    ]
-    .map(|(name, form, words)| (name.to_owned(), (form, words)));
-    every_case(&cases, |(form, words)| {
-        let own = OwnLab::new("94-poses", POSES.replace("FORM", form))
-            .and(
-                "hidden.toml",
-                "format = 1\nsalt = \"a long one that nobody can guess\"\n",
-            )
-            .and(
-                "solution.rhai",
-                "fn inverse_kinematics(robot, pose) { [] }\n",
-            );
-        let found = problems(&rows(
-            &own,
-            "Write `inverse_kinematics`.",
-            &Accepted::default(),
-        ));
-        let of_branches: Vec<_> = found
-            .iter()
-            .filter(|(rule, _)| rule == "branches")
-            .collect();
-        match words {
-            None => assert!(of_branches.is_empty(), "{found:#?}"),
-            Some(words) => assert!(
-                of_branches
-                    .iter()
-                    .any(|(_, problem)| problem.contains(words)),
-                "{words}: {found:#?}"
-            ),
-        }
-    });
-}
-
-/// A row of joints has no limits, and 90 rad is an angle like any.
-#[test]
-fn degrees_of_joints_without_limits_are_doubted() {
-    for (angle, count) in [("90.0", 1), ("9.0", 0)] {
-        let text = POSES
-            .replace(
-                "ik-reach = { full_m = 1e-3, zero_m = 1e-2, full_rad = 1e-3, zero_rad = 1e-2 }",
-                "fk-error = { full_m = 1e-3, zero_m = 1e-2 }",
-            )
-            .replace("inverse_kinematics", "forward_kinematics")
-            .replace(
-                "FORM",
-                &format!("cases = [{{ name = \"a\", q_rad = [{angle}, 0.2, 0.3, 0.1] }}]"),
-            );
-        let own = OwnLab::new("94-poses", text)
-            .and(
-                "hidden.toml",
-                "format = 1\nsalt = \"a long one that nobody can guess\"\n",
-            )
-            .and("solution.rhai", "fn forward_kinematics(robot, q) { [] }\n");
-        let found = problems(&rows(
-            &own,
-            "Write `forward_kinematics`.",
-            &Accepted::default(),
-        ));
-        let of_reach: Vec<_> = found.iter().filter(|(rule, _)| rule == "reach").collect();
-        assert_eq!(of_reach.len(), count, "{found:#?}");
-        assert!(
-            of_reach
-                .iter()
-                .all(|(_, problem)| problem.contains("more than 2 turns: are these degrees?")),
-            "{found:#?}"
-        );
     }
 }
 

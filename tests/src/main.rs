@@ -7,6 +7,8 @@
 
 mod architecture;
 mod authoring_slips;
+mod bad_briefs;
+mod bad_poses;
 mod bad_rubrics;
 mod book_robustness;
 mod case_evidence;
