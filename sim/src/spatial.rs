@@ -64,6 +64,16 @@ fn rotation_from_sines([(sr, cr), (sp, cp), (sy, cy)]: [(f64, f64); 3]) -> Matri
     rz * ry * rx
 }
 
+/// Roll, pitch and yaw of a rotation \[degrees\]: those that [`rotation_from_rpy_deg`] makes it of. Where the pitch is a quarter turn roll and
+/// yaw are not unique, and rounding decides between them: such angles may give another rotation.
+pub fn rpy_deg_from_rotation(r: &Matrix3<f64>) -> [f64; 3] {
+    [
+        libm::atan2(r.m32, r.m33).to_degrees(),
+        libm::atan2(-r.m31, libm::hypot(r.m11, r.m21)).to_degrees(),
+        libm::atan2(r.m21, r.m11).to_degrees(),
+    ]
+}
+
 /// The unit vector along `v`, or `None` where `v` is zero. Coordinate axes stay exact.
 pub fn direction(v: Vector3<f64>) -> Option<Vector3<f64>> {
     // scaled first, so that neither tiny nor huge vectors are lost in their squares
@@ -286,6 +296,18 @@ mod tests {
         let deg = [20.0, -35.0, 170.0];
         let error = rotation_from_rpy(deg.map(f64::to_radians)) - rotation_from_rpy_deg(deg);
         assert_eq!(error.amax(), 0.0);
+    }
+
+    #[test]
+    fn angles_come_back_from_their_rotation() {
+        for angles in [[20.0, -35.0, 170.0], [-179.0, 89.0, 0.5], [0.0, 0.0, -90.0]] {
+            let found = rpy_deg_from_rotation(&rotation_from_rpy_deg(angles));
+            let off = found
+                .iter()
+                .zip(angles)
+                .map(|(found, angle)| (found - angle).abs());
+            assert!(off.fold(0.0, f64::max) < 1e-10, "{angles:?}: {found:?}");
+        }
     }
 
     #[test]

@@ -162,6 +162,105 @@ fn a_lab_that_is_moved_in_every_way_has_a_solution_from_the_beginning() {
     assert!(ran.stderr.contains(words), "{ran:?}");
 }
 
+/// Two links that turn, a lift, and a hand that turns about the vertical.
+const SCARA: &str = r#"
+format = 1
+name = "scara"
+
+[dh]
+convention = "standard"
+
+[[dh.rows]]
+joint = "shoulder"
+type = "revolute"
+d_m = 0.4
+a_m = 0.25
+limit = { lower = -2.3, upper = 2.3 }
+
+[[dh.rows]]
+joint = "elbow"
+type = "revolute"
+a_m = 0.2
+limit = { lower = -2.5, upper = 2.5 }
+
+[[dh.rows]]
+joint = "lift"
+type = "prismatic"
+alpha_deg = 180
+limit = { lower = -0.2, upper = 0 }
+
+[[dh.rows]]
+joint = "hand"
+type = "revolute"
+limit = { lower = -3.1, upper = 3.1 }
+"#;
+
+/// Once its two functions of poses are there, the solution moves to places by the inverse kinematics of a task, too.
+#[test]
+fn a_lab_of_places_and_poses_has_no_problem_but_its_todos() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    let mut args = vec!["lab", "new", "14-places"];
+    for task in ["fk", "ik", "fk-pose", "goals:pick-up"] {
+        args.extend(["--task", task]);
+    }
+    let ran = bed.run(&args);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let path = "reference/14-places/solution.rhai";
+    let solution = std::fs::read_to_string(bed.path(path)).expect("a solution");
+    let init = solution
+        .split_once("fn init")
+        .expect("it keeps the robot")
+        .1;
+    let init = init.split_once("fn forward").expect("a function").0;
+    let control = solution.split_once("fn control").expect("a controller").1;
+    let pose = "
+fn pose_of_tcp(robot, q) {
+    let p = forward_kinematics(robot, q);
+    let a = q[0] + q[1];
+    // at zero the TCP's z is up, which is x of the lab
+    [[-sin(a), 0, cos(a), p[0]], [cos(a), 0, sin(a), p[1]], [0, 1, 0, p[2]], [0, 0, 0, 1]]
+}
+";
+    bed.write(
+        path,
+        format!("{KINEMATICS}{pose}fn init{init}fn control{control}"),
+    );
+    let found = problems(&bed, "14-places");
+    let is_todo = |row: &&(String, String, String)| row.1 == "names" || row.0 == "mutants";
+    let rest: Vec<_> = found.iter().filter(|row| !is_todo(row)).collect();
+    assert!(rest.is_empty(), "{rest:#?}");
+}
+
+/// Six joints choose a whole pose, and the two of the course's arm none beside the place.
+#[test]
+fn poses_are_asked_for_as_far_as_the_robot_can_choose_them() {
+    let bed = TestBed::new();
+    bed.copy_labs();
+    bed.write("labs/robots/scara.toml", SCARA);
+    for (robot, form, key) in [
+        ("puma560", "full", "rpy_deg = ["),
+        ("scara", "yaw", "yaw_deg = "),
+    ] {
+        let name = format!("15-{robot}");
+        let ran = bed.run(&["lab", "new", &name, "--robot", robot, "--task", "ik-pose"]);
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+        let lab = bed.path(&format!("labs/{name}/lab.toml"));
+        let lab = std::fs::read_to_string(lab).expect("a file");
+        assert!(lab.contains(&format!("pose = \"{form}\"")), "{lab}");
+        assert!(lab.contains(key), "{lab}");
+        // no doubt about what is reached, and in how many branches
+        let found = problems(&bed, &name);
+        let of_reach = |row: &&(String, String, String)| row.1 == "branches" || row.1 == "reach";
+        assert_eq!(found.iter().find(of_reach), None);
+    }
+    let ran = bed.run(&["lab", "new", "16-rr", "--task", "ik-pose"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    let words = "robot `rrbot` has too few joints for task `ik-pose`";
+    assert!(ran.stderr.contains(words), "{ran:?}");
+    assert!(!bed.path("labs/16-rr").exists());
+}
+
 #[test]
 fn a_lab_can_be_begun_with_every_robot_of_the_course() {
     let bed = TestBed::new();

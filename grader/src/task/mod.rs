@@ -9,6 +9,7 @@ pub(crate) mod law;
 pub mod mesh_file;
 pub mod model;
 pub mod pose;
+pub(crate) mod pose_target;
 pub mod problem;
 pub(crate) mod push;
 pub mod quantity;

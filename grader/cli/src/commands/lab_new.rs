@@ -26,8 +26,9 @@ use crate::output;
     after_help = "Examples:\n  kinemark lab new first-lab --robot rrbot --task fk --task motion:turn\n  \
     kinemark lab new arm-lab --robot puma560 --task ik:where --task velocity --task function:gear-ratio\n  \
     kinemark lab new reach-lab --from 01-kinematics\n\n\
-    Kinds of tasks: fk, ik, jacobian, tcp-velocity, tcp-acceleration, gravity, coriolis, torque, mass-matrix, function (of the lab's own), \
-    motion (by joint positions), velocity (by joint velocities), effort (by joint efforts). A name follows after a colon.\n\
+    Kinds of tasks: fk, ik (of places), fk-pose, ik-pose (with how the TCP is turned), jacobian, tcp-velocity, tcp-acceleration, gravity, \
+    coriolis, torque, mass-matrix, function (of the lab's own), motion (by joint positions), goals (places of the TCP, by joint positions), \
+    velocity (by joint velocities), effort (by joint efforts). A name follows after a colon.\n\
     --from copies a lab with the course staff's part: the copy has a name and a salt of its own, other numbers wherever the lab's \
     variants leave a choice, and the robot of --robot. Solutions of the labs that come with kinemark are public: change what is asked \
     for, too.\n\n\
@@ -185,6 +186,9 @@ fn new_lab(args: &Args, files: &dyn Files) -> Result<Content, Failure> {
         let help = match error {
             Unfit::CannotMove { .. } => {
                 "give its links an `inertia`, or choose another robot, such as --robot rrbot"
+            }
+            Unfit::Pose { .. } => {
+                "ask for places with --task ik, or choose a robot with more joints, such as --robot puma560"
             }
             Unfit::Loops { .. } => {
                 "choose another robot, or begin with --task function and add the rest by docs/lab-format.md"

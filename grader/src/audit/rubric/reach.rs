@@ -1,19 +1,19 @@
 //! What the robot is asked to reach: cases of inverse kinematics, goals, points of paths; and where on the way it is nearly singular.
 
-use kinemark_sim::kinematics::Target;
 use kinemark_sim::kinematics::branches::{BranchFinder, Reach};
 use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::kinematics::joint_samples::JointSamples;
 use kinemark_sim::kinematics::manipulability::{LINEAR, Manipulability};
 use kinemark_sim::model::robot::Robot;
 use kinemark_sim::text::number::{list, metres, trimmed};
-use nalgebra::{Matrix3, Matrix6xX, Rotation3, Unit, Vector3};
+use nalgebra::{Matrix6xX, Vector3};
 
 use super::{Doubt, Rubric};
 use crate::attempt::branches::{count_different, count_distinct, stands_beyond_limit};
 use crate::lab::{Lab, Staff, Task, TaskWork};
 use crate::task::model::{Case, Function, Given, MotionTask};
-use crate::task::pose::{PoseForm, pose_at, pose_in};
+use crate::task::pose::PoseForm;
+use crate::task::pose_target::pose_target;
 use crate::task::task_joints::TaskJoints;
 
 /// A singular value below this share of the greatest that the robot has anywhere is nearly zero.
@@ -24,8 +24,6 @@ const SAMPLES: usize = 256;
 const ON_A_SEGMENT: usize = 20;
 /// Hidden cases of a draw that are tried: they are alike.
 const OF_A_DRAW: usize = 10;
-/// Configurations at which it is looked whether a robot tilts its TCP.
-const TILTS: usize = 16;
 /// As many branches may be a continuum: then nobody can count them.
 const CONTINUUM: usize = 16;
 
@@ -309,7 +307,7 @@ fn wrong_count(lab: &Lab, task: &Task, case: &Case) -> Option<String> {
     };
     let robot = robot_of(lab, task, case);
     let home = robot.home().to_vec();
-    let target = target_of(robot, &lab.of_task(task).frame, *form, pose)?;
+    let target = pose_target(robot, &lab.of_task(task).frame, *form, pose)?;
     let joints = TaskJoints::of(robot, &work.about.ignored);
     let chain = (!work.about.ignored.is_empty()).then_some(joints.entries());
     let mut finder = BranchFinder::of_kind(robot, &home, target, chain).ok()?;
@@ -351,55 +349,6 @@ fn wrong_count(lab: &Lab, task: &Task, case: &Case) -> Option<String> {
             ))
         }
     }
-}
-
-/// Where the TCP is to be in the world, for numbers of this form in the lab's frame. `None` for a heading of a robot that can tilt its TCP:
-/// a heading does not say how.
-fn target_of(robot: &Robot, frame: &str, form: PoseForm, numbers: &[f64]) -> Option<Target> {
-    let home = robot.home();
-    let poses = forward_kinematics(robot, &robot.positions(home).ok()?);
-    let world_from_lab = poses.world_from(robot.frame(frame)?);
-    let p_in_lab = form.position(numbers);
-    let in_world = |rotation: Rotation3<f64>| world_from_lab * pose_at(p_in_lab, rotation);
-    Some(match form {
-        PoseForm::Position => Target::Position(in_world(Rotation3::identity()).translation.vector),
-        PoseForm::Axis { of_tcp } => {
-            let direction = Vector3::new(numbers[3], numbers[4], numbers[5]);
-            Target::Axis {
-                position_m: in_world(Rotation3::identity()).translation.vector,
-                axis_in_frame: Unit::try_new(of_tcp, 0.0)?,
-                direction_in_world: Unit::try_new(world_from_lab.rotation * direction, 0.0)?,
-            }
-        }
-        PoseForm::Full => {
-            let matrix = Matrix3::from_fn(|i, j| numbers[4 * i + j]);
-            Target::Pose(in_world(Rotation3::from_matrix_unchecked(matrix)))
-        }
-        PoseForm::Yaw => {
-            let tilt = the_only_tilt(robot, frame)?;
-            let heading = Rotation3::from_axis_angle(&Vector3::z_axis(), numbers[3]);
-            Target::Pose(in_world(heading * tilt))
-        }
-    })
-}
-
-/// How the TCP is turned but for its heading, if that is the same in every configuration.
-fn the_only_tilt(robot: &Robot, frame: &str) -> Option<Rotation3<f64>> {
-    let tilt = |q: &[f64]| {
-        let pose = pose_in(robot, frame, q)?;
-        let heading = *PoseForm::Yaw.of(&pose).last()?;
-        Some(Rotation3::from_axis_angle(&Vector3::z_axis(), -heading) * pose.rotation)
-    };
-    let at_home = tilt(robot.home())?;
-    let mut samples = JointSamples::new(robot);
-    let mut q = vec![0.0; robot.n()];
-    for _ in 0..TILTS {
-        samples.next_into(&mut q);
-        if (tilt(&q)?.matrix() - at_home.matrix()).amax() > 1e-9 {
-            return None;
-        }
-    }
-    Some(at_home)
 }
 
 /// A place of the lab's frame in the world.

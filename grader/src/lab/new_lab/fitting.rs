@@ -3,14 +3,16 @@
 use kinemark_sim::dynamics::GRAVITY_M_S2;
 use kinemark_sim::dynamics::crba::mass_matrix;
 use kinemark_sim::kinematics::branches::{BranchFinder, Reach};
-use kinemark_sim::kinematics::forward_kinematics;
 use kinemark_sim::kinematics::joint_samples::JointSamples;
 use kinemark_sim::kinematics::position_range::{PositionRange, position_ranges};
+use kinemark_sim::spatial::{rotation_from_rpy_deg, rpy_deg_from_rotation};
 use kinemark_sim::text::number::{list, trimmed};
-use nalgebra::Vector3;
+use nalgebra::{Rotation3, Vector3};
 
 use super::NewLab;
-use crate::attempt::branches::count_distinct;
+use crate::attempt::branches::{count_different, count_distinct};
+use crate::task::pose::{PoseForm, pose_at, pose_in};
+use crate::task::pose_target::pose_target;
 use crate::task::quantity::Quantity;
 use crate::task::task_joints::TaskJoints;
 use crate::task::tcp::tcp_in;
@@ -21,6 +23,19 @@ pub(super) const LOOP_RAD_S: f64 = 20.0;
 const ABOUT: f64 = 0.15;
 /// As many branches may be a continuum.
 pub(super) const CONTINUUM: usize = 16;
+/// The distance from a goal at which nothing is earned, as a share of the distance between the two.
+pub(super) const PLACE_BAND: f64 = 0.1;
+
+/// A pose that is asked for.
+#[derive(Debug)]
+pub(super) struct FittingPose {
+    /// How much of it counts.
+    pub form: PoseForm,
+    /// The keys of a case that say where it is.
+    pub keys: String,
+    /// How many branches reach it.
+    pub branches: usize,
+}
 
 impl NewLab<'_> {
     /// Joint positions within the ranges, to two decimals: the sample of this number.
@@ -85,26 +100,112 @@ impl NewLab<'_> {
         let q = self.q(number);
         let at = tcp_in(self.robot, self.frame(), &q).unwrap_or_default();
         let place = [at.x, at.y, at.z].map(|x| round(x, 4));
-        let home = self.robot.home();
-        let branches = self.in_world(&Vector3::from(place)).and_then(|p_in_world| {
-            let mut finder = BranchFinder::new(self.robot, home).ok()?;
-            match finder.reach(&p_in_world).ok()? {
-                Reach::In(found) => match count_distinct(self.robot, &found) {
-                    // nobody can list a continuum: one answer will do
-                    count if count >= CONTINUUM => Some(1),
-                    count => Some(count),
-                },
-                Reach::Not { .. } => Some(0),
-            }
-        });
-        (place, branches.unwrap_or(1))
+        let branches = match self.branches(PoseForm::Position, &place) {
+            // nobody can list a continuum: one answer will do
+            Some(count) if count >= CONTINUUM => 1,
+            count => count.unwrap_or(1),
+        };
+        (place, branches)
     }
 
-    fn in_world(&self, p_in_lab: &Vector3<f64>) -> Option<Vector3<f64>> {
-        let q = self.robot.positions(self.robot.home()).ok()?;
-        let poses = forward_kinematics(self.robot, &q);
-        let world_from_lab = poses.world_from(self.robot.frame(self.frame())?);
-        Some(world_from_lab.transform_point(&(*p_in_lab).into()).coords)
+    /// Two poses that the robot reaches in so many branches that one can list them, as two samples have them: a heading where nothing tilts
+    /// the TCP, else the whole pose, or with five joints one axis. `None` where the place alone decides how the TCP is turned.
+    pub(super) fn poses(&self) -> Option<[FittingPose; 2]> {
+        let forms = [
+            PoseForm::Yaw,
+            PoseForm::Full,
+            PoseForm::Axis {
+                of_tcp: Vector3::z(),
+            },
+        ];
+        let of_form = |form| Some([self.pose(form, 1)?, self.pose(form, 2)?]);
+        forms.into_iter().find_map(of_form)
+    }
+
+    fn pose(&self, form: PoseForm, number: usize) -> Option<FittingPose> {
+        let pose = pose_in(self.robot, self.frame(), &self.q(number))?;
+        let at = pose.translation.vector.map(|x| round(x, 4));
+        let rpy_deg = rpy_deg_from_rotation(pose.rotation.matrix()).map(|angle| round(angle, 2));
+        let mut numbers = at.as_slice().to_vec();
+        let turned = match form {
+            PoseForm::Position => return None,
+            PoseForm::Yaw => {
+                numbers.push(rpy_deg[2].to_radians());
+                format!("yaw_deg = {}", trimmed(rpy_deg[2], 2))
+            }
+            PoseForm::Axis { of_tcp } => {
+                // with fewer joints the place decides
+                if self.robot.n() < 5 {
+                    return None;
+                }
+                let axis = (pose.rotation * of_tcp).map(|x| round(x, 3));
+                numbers.extend(axis.normalize().iter());
+                format!("axis = {}", list(axis.as_slice()))
+            }
+            PoseForm::Full => {
+                let turn = Rotation3::from_matrix_unchecked(rotation_from_rpy_deg(rpy_deg));
+                numbers = PoseForm::Full.of(&pose_at(at, turn));
+                format!("rpy_deg = {}", list(&rpy_deg))
+            }
+        };
+        let branches = self.branches(form, &numbers)?;
+        (1..CONTINUUM).contains(&branches).then(|| FittingPose {
+            form,
+            keys: format!("position_m = {}, {turned}", list(at.as_slice())),
+            branches,
+        })
+    }
+
+    /// How many branches reach numbers of a form.
+    fn branches(&self, form: PoseForm, numbers: &[f64]) -> Option<usize> {
+        let target = pose_target(self.robot, self.frame(), form, numbers)?;
+        let mut finder = BranchFinder::of_kind(self.robot, self.robot.home(), target, None).ok()?;
+        Some(match finder.reach_target(target).ok()? {
+            Reach::In(found) if form.is_turned() => count_different(self.robot, &found),
+            Reach::In(found) => count_distinct(self.robot, &found),
+            Reach::Not { .. } => 0,
+        })
+    }
+
+    /// The distance between the two places of a task with goals \[m\], by which its bands are chosen.
+    pub(super) fn between_places(&self) -> f64 {
+        let [first, second] = [1, 2].map(|sample| Vector3::from(self.place(sample).0));
+        (second - first).norm()
+    }
+
+    /// Ranges for x, y and z beside the place of a sample, each of which the robot reaches: where the place can move along an axis of the
+    /// lab's frame, by more than what still earns something; else the number itself.
+    pub(super) fn beside_place(&self, number: usize) -> String {
+        let place = self.place(number).0;
+        let ends = [PLACE_BAND, 2.0 * PLACE_BAND].map(|share| share * self.between_places());
+        let is_reached = |place: &[f64; 3]| {
+            let branches = self.branches(PoseForm::Position, place);
+            branches.is_some_and(|count| count > 0)
+        };
+        let range = |axis: usize| {
+            [1.0, -1.0].into_iter().find_map(|sign| {
+                let ends = ends.map(|by| round(place[axis] + sign * by, 3));
+                let reached = ends.iter().all(|end| {
+                    let mut there = place;
+                    there[axis] = *end;
+                    is_reached(&there)
+                });
+                reached.then_some([ends[0].min(ends[1]), ends[0].max(ends[1])])
+            })
+        };
+        let alone = [0, 1, 2].map(range);
+        let corner = |which: usize| {
+            let end = |axis: usize| alone[axis].map_or(place[axis], |ends| ends[which >> axis & 1]);
+            [0, 1, 2].map(end)
+        };
+        // where they cannot all move together, the first alone
+        let together = (0..8).all(|which| is_reached(&corner(which)));
+        let first = alone.iter().position(Option::is_some);
+        let range = |axis: usize| match alone[axis] {
+            Some(ends) if together || first == Some(axis) => list(&ends),
+            _ => list(&[place[axis]; 2]),
+        };
+        format!("[{}]", [0, 1, 2].map(range).join(", "))
     }
 
     /// Motion of the joints: positions, and the first so many derivatives.
@@ -174,7 +275,7 @@ fn round_in(value: f64, direction: f64) -> f64 {
 }
 
 /// To two significant digits.
-fn significant(value: f64) -> f64 {
+pub(super) fn significant(value: f64) -> f64 {
     if value == 0.0 || !value.is_finite() {
         return 0.0;
     }

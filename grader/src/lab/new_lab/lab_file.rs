@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 
 use kinemark_sim::text::number::{list, trimmed};
 
-use super::fitting::{CONTINUUM, LOOP_RAD_S};
-use super::{NewLab, NewTask, NewTaskKind, STATE_KEYS, parameter, schema_line};
+use super::fitting::{CONTINUUM, LOOP_RAD_S, PLACE_BAND, significant};
+use super::{NewLab, NewTask, NewTaskKind, STATE_KEYS, parameter, places, schema_line};
 use crate::task::quantity::Quantity;
 
 impl NewLab<'_> {
@@ -24,6 +24,13 @@ impl NewLab<'_> {
         if !moving.is_empty() {
             text += "\n# Numbers that hidden runs, and with [variants] also students, have others of.\n[parameters]\n";
             for task in &moving {
+                if task.kind == NewTaskKind::Goals {
+                    for (sample, name) in (1..).zip(places(task)) {
+                        let place = list(&self.place(sample).0);
+                        let _ = writeln!(text, "{name} = {place}  # a place of the TCP, m");
+                    }
+                    continue;
+                }
                 let _ = writeln!(
                     text,
                     "{} = {}  # joint positions",
@@ -57,7 +64,20 @@ impl NewLab<'_> {
                 ),
             ]
             .concat(),
+            NewTaskKind::ForwardPose => [
+                self.call_of_poses(task.kind),
+                "pose = \"full\"  # a 4 x 4 matrix\n".to_owned(),
+                self.cases_of_angles(),
+                check_toml("position", 2, "fk-error = { full_m = 1e-4, zero_m = 5e-3 }"),
+                check_toml(
+                    "turn",
+                    2,
+                    "fk-orientation = { full_rad = 1e-4, zero_rad = 0.05 }",
+                ),
+            ]
+            .concat(),
             NewTaskKind::InverseKinematics => self.inverse_kinematics_toml(),
+            NewTaskKind::InversePose => self.inverse_pose_toml(task.kind),
             NewTaskKind::Jacobian => [
                 "[tasks.function]\ncall = \"jacobian\"\nrows = [\"x\", \"y\", \"z\"]\n".to_owned(),
                 self.cases_of_angles(),
@@ -77,6 +97,7 @@ impl NewLab<'_> {
             ]
             .concat(),
             NewTaskKind::Motion => self.motion_toml(task, "position"),
+            NewTaskKind::Goals => self.goals_toml(task),
             NewTaskKind::Velocity => self.motion_toml(task, "velocity"),
             NewTaskKind::Effort => self.motion_toml(task, "effort"),
         }
@@ -130,6 +151,67 @@ impl NewLab<'_> {
             text.push_str(&check_toml("branches", 2, kind));
         }
         text
+    }
+
+    /// The begin of the table of a task about poses.
+    fn call_of_poses(&self, kind: NewTaskKind) -> String {
+        let (name, call) = self.function_of_poses(kind);
+        let renamed = match name == call {
+            true => String::new(),
+            false => format!("as = \"{name}\"\n"),
+        };
+        format!("[tasks.function]\ncall = \"{call}\"\n{renamed}")
+    }
+
+    fn inverse_pose_toml(&self, kind: NewTaskKind) -> String {
+        // `files` has refused a robot without them
+        let Some(poses) = self.poses() else {
+            return String::new();
+        };
+        let form = poses[0].form.name();
+        let listed = (2..CONTINUUM).contains(&poses[0].branches);
+        let mut number = 0;
+        let cases = poses.map(|pose| {
+            number += 1;
+            format!(
+                "{{ name = \"TODO: case {number}\", {}, branches = {} }}",
+                pose.keys, pose.branches
+            )
+        });
+        let band = "{ full_m = 1e-3, zero_m = 1e-2, full_rad = 1e-3, zero_rad = 1e-2 }";
+        let mut text = [
+            self.call_of_poses(kind),
+            format!("pose = \"{form}\"  # how much of the pose is asked for\n"),
+            cases_toml(cases),
+            check_toml("reach", 4, &format!("ik-reach = {band}")),
+        ]
+        .concat();
+        if listed {
+            text.push_str(&check_toml("branches", 2, &format!("ik-branches = {band}")));
+        }
+        text
+    }
+
+    fn goals_toml(&self, task: &NewTask) -> String {
+        let [first, second] = places(task);
+        let zero = significant(PLACE_BAND * self.between_places());
+        [
+            format!(
+                "[tasks.motion]\nmode = \"position\"  # what a command of `control` is\nduration_s = 8.0\ngoals = [\n    \
+                 {{ position_m = \"= {first}\", dwell_s = 0.5 }},\n    {{ position_m = \"= {second}\", dwell_s = 0.5 }},\n]\n{}",
+                self.servo(task.kind)
+            ),
+            check_toml(
+                "places",
+                4,
+                &format!(
+                    "pose-reached = {{ full_m = {}, zero_m = {} }}",
+                    trimmed(0.1 * zero, 9),
+                    trimmed(zero, 9)
+                ),
+            ),
+        ]
+        .concat()
     }
 
     fn motion_toml(&self, task: &NewTask, mode: &str) -> String {

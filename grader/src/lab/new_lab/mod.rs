@@ -37,6 +37,10 @@ pub enum NewTaskKind {
     ForwardKinematics,
     /// Inverse kinematics.
     InverseKinematics,
+    /// Forward kinematics of the whole pose.
+    ForwardPose,
+    /// Inverse kinematics of a pose, as much of it as the robot can choose.
+    InversePose,
     /// The Jacobian.
     Jacobian,
     /// A quantity of the robot, such as its gravity efforts.
@@ -45,6 +49,8 @@ pub enum NewTaskKind {
     Function,
     /// A motion by joint positions.
     Motion,
+    /// A motion by joint positions to places of the TCP.
+    Goals,
     /// A motion by joint velocities.
     Velocity,
     /// A motion by joint efforts.
@@ -53,9 +59,11 @@ pub enum NewTaskKind {
 
 impl NewTaskKind {
     /// All of them, by the words that people type.
-    pub const ALL: [(&'static str, Self); 13] = [
+    pub const ALL: [(&'static str, Self); 16] = [
         ("fk", Self::ForwardKinematics),
         ("ik", Self::InverseKinematics),
+        ("fk-pose", Self::ForwardPose),
+        ("ik-pose", Self::InversePose),
         ("jacobian", Self::Jacobian),
         // `velocity` is a motion by joint velocities
         (
@@ -72,12 +80,16 @@ impl NewTaskKind {
         ("mass-matrix", Self::Quantity(Quantity::MassMatrix)),
         ("function", Self::Function),
         ("motion", Self::Motion),
+        ("goals", Self::Goals),
         ("velocity", Self::Velocity),
         ("effort", Self::Effort),
     ];
 
     fn moves(self) -> bool {
-        matches!(self, Self::Motion | Self::Velocity | Self::Effort)
+        matches!(
+            self,
+            Self::Motion | Self::Goals | Self::Velocity | Self::Effort
+        )
     }
 
     fn needs_masses(self) -> bool {
@@ -128,6 +140,16 @@ pub enum Unfit {
         /// The task.
         task: String,
     },
+    /// The place of its TCP decides how that is turned.
+    #[error(
+        "robot `{robot}` has too few joints for task `{task}`: where its TCP is decides how it is turned"
+    )]
+    Pose {
+        /// The robot.
+        robot: String,
+        /// The task.
+        task: String,
+    },
 }
 
 /// The files of both halves, by their names in the folder of the lab and in that of the course staff.
@@ -156,7 +178,7 @@ impl NewLab<'_> {
     /// The files.
     ///
     /// # Errors
-    /// [`Unfit`] where a task moves a robot without masses, or is about one with closed loops.
+    /// [`Unfit`] where a task moves a robot without masses, is about one with closed loops, or asks for poses where places decide them.
     pub fn files(&self) -> Result<NewLabFiles, Unfit> {
         let robot = self.robot_name.to_owned();
         let mut of_robot = self.tasks.iter();
@@ -172,6 +194,12 @@ impl NewLab<'_> {
                 task: task.name.clone(),
                 joint: singular.joint,
             });
+        }
+        let mut of_poses = self.tasks.iter();
+        let of_poses = of_poses.find(|task| task.kind == NewTaskKind::InversePose);
+        if let (Some(task), None) = (of_poses, self.poses()) {
+            let task = task.name.clone();
+            return Err(Unfit::Pose { robot, task });
         }
         Ok(NewLabFiles {
             lab: vec![
@@ -195,6 +223,29 @@ impl NewLab<'_> {
         }
     }
 
+    /// Whether a task asks for this.
+    fn asks_for(&self, kind: NewTaskKind) -> bool {
+        self.tasks.iter().any(|task| task.kind == kind)
+    }
+
+    /// The function that answers or is given a pose, and the one that the engine knows it by: another name where a task asks for positions
+    /// by that name.
+    fn function_of_poses(&self, kind: NewTaskKind) -> (&'static str, &'static str) {
+        let (name, other, plain) = match kind {
+            NewTaskKind::ForwardPose => (
+                "forward_kinematics",
+                "pose_of_tcp",
+                NewTaskKind::ForwardKinematics,
+            ),
+            _ => (
+                "inverse_kinematics",
+                "angles_for_pose",
+                NewTaskKind::InverseKinematics,
+            ),
+        };
+        (if self.asks_for(plain) { other } else { name }, name)
+    }
+
     /// The number of the sample that a motion task goes to.
     fn sample(&self, task: &NewTask) -> usize {
         let mut moving = self.tasks.iter().filter(|task| task.kind.moves());
@@ -205,4 +256,9 @@ impl NewLab<'_> {
 /// The parameter with the target of a task.
 fn parameter(task: &NewTask) -> String {
     format!("{}_target", task.name.replace('-', "_"))
+}
+
+/// The parameters with the places of a task that has goals.
+fn places(task: &NewTask) -> [String; 2] {
+    ["first", "second"].map(|place| format!("{}_{place}", task.name.replace('-', "_")))
 }

@@ -11,7 +11,7 @@ use crate::model::robot::{Joint, JointKind, Link, Robot, Shape};
 use crate::model::unphysical::Unphysical;
 use crate::part::toml_text::{quoted, triple};
 use crate::sensor::sensor_table;
-use crate::spatial::{Pose, rotation_from_rpy_deg};
+use crate::spatial::{Pose, rotation_from_rpy_deg, rpy_deg_from_rotation};
 
 /// A rotation is written by angles if they give it back this exactly.
 const SAME_ROTATION: f64 = 1e-15;
@@ -193,12 +193,7 @@ fn origin_parts(pose: &Pose) -> Vec<String> {
 
 /// By angles in degrees where they give the matrix back, else by two axes.
 fn rotation(r: &Matrix3<f64>) -> String {
-    let pitch = libm::atan2(-r.m31, libm::hypot(r.m11, r.m21));
-    let exact = [
-        libm::atan2(r.m32, r.m33).to_degrees(),
-        pitch.to_degrees(),
-        libm::atan2(r.m21, r.m11).to_degrees(),
-    ];
+    let exact = rpy_deg_from_rotation(r);
     // short angles first: 90, not 90.00000000000001
     let short = exact.map(|degrees| (degrees * 1e6).round() / 1e6);
     for angles in [short, exact] {
