@@ -810,6 +810,23 @@ fn a_doubt_is_accepted_with_a_reason_and_an_idle_entry_is_a_problem() {
 }
 
 #[test]
+fn gravity_that_pulls_sideways_is_doubted() {
+    for (gravity, count) in [("[-9.81, 0.0, 0.0]", 1), ("[1.0, 0.0, -1.6]", 0)] {
+        let own = own_lab().with(
+            "lab.toml",
+            "target = { effort_n_m = 2.0 }\n",
+            &format!("target = {{ effort_n_m = 2.0 }}\ngravity_m_s2 = {gravity}\n"),
+        );
+        let found = problems(&rows(&own, BRIEF, &Accepted::default()));
+        let words = "push/gravity_m_s2: gravity is [-9.81, 0, 0] in the world, where z is up";
+        let hits = found
+            .iter()
+            .filter(|(rule, what)| rule == "settings" && what.starts_with(words));
+        assert_eq!(hits.count(), count, "{found:#?}");
+    }
+}
+
+#[test]
 fn a_level_with_the_damping_that_is_there_is_refused() {
     let own = own_lab().with(
         "lab.toml",

@@ -77,14 +77,14 @@ fn control(observation) {
 }
 ";
 
-fn motion_lab() -> OwnLab {
+pub(crate) fn motion_lab() -> OwnLab {
     OwnLab::new("94-motion", MOTION)
         .and("hidden.toml", MOTION_HIDDEN)
         .and("solution.rhai", MOTION_SOLUTION)
 }
 
 /// The problems of one rule, with the grades of the solution, of its commands played back, and of the corners.
-fn found_by(rule: &str, own: &OwnLab) -> Vec<String> {
+pub(crate) fn found_by(rule: &str, own: &OwnLab) -> Vec<String> {
     let lab = own.lab();
     let staff = staff_of(own, &lab);
     let form = Form::new(&lab, &staff);

@@ -10,6 +10,7 @@ mod authoring_slips;
 mod bad_briefs;
 mod bad_poses;
 mod bad_rubrics;
+mod bands_of_reference;
 mod book_robustness;
 mod case_evidence;
 mod class_page;

@@ -39,6 +39,9 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             }
             TaskWork::Motion(motion, checks) => {
                 for check in checks {
+                    if joints.is_of_one_way(task, &check.name) && !motion.goals.is_empty() {
+                        doubts.push(of_one_way(task, &check.name));
+                    }
                     let joint = joints.joint(task, &check.name);
                     let band = check.kind.band();
                     let band = band.or_else(|| of_reference(rubric, &task.name, &check.name));
@@ -81,12 +84,33 @@ impl<'a> TypedJoints<'a> {
         kind.is_some_and(|(kind, _)| kind.contains("orientation"))
     }
 
+    /// Whether a check compares the whole way with that of the reference solution, in a task that asks for no path.
+    fn is_of_one_way(&self, task: &Task, check: &str) -> bool {
+        let over = self
+            .kind(task, check)
+            .filter(|(kind, _)| *kind == "trajectory-match");
+        let over = over.and_then(|(_, keys)| keys.get("over")?.as_str());
+        let typed = typed::named(&self.table, "tasks", &task.name);
+        let motion = typed.and_then(|task| task.get("motion"));
+        over == Some("run") && motion.is_some_and(|motion| motion.get("paths").is_none())
+    }
+
     /// The entry of the joint that a check reads, if it reads one.
     fn joint(&self, task: &Task, check: &str) -> Option<usize> {
         let (_, kind) = self.kind(task, check)?;
         let name = kind.get("joint")?.as_str()?;
         let mut joints = self.lab.of_task(task).robot.moving_joints();
         joints.position(|joint| joint.name == name)
+    }
+}
+
+fn of_one_way(task: &Task, check: &str) -> Doubt {
+    Doubt {
+        rule: "band",
+        of: format!("{}/{check}", task.name),
+        what: "it compares the whole way with the reference solution's, and the goals leave the way free: another branch or another pace loses the points"
+            .to_owned(),
+        help: "compare the stays alone, `over = \"dwells\"`, or give the task a path".to_owned(),
     }
 }
 
@@ -118,6 +142,30 @@ fn is_far_above(measure: &Measure) -> bool {
             .is_some_and(|value| value > 0.0 && measure.full > FAR_ABOVE * value)
 }
 
+/// A time that is longer than the reference solution's by this share is no fault yet.
+const SLOWER: f64 = 0.1;
+/// A share of this, such as of a step that is overshot, is next to nothing.
+const LITTLE: f64 = 0.01;
+
+/// Whether a submission that is hardly worse than the reference solution earns nothing.
+fn is_close(measure: &Measure, value: f64) -> bool {
+    let room = match measure.unit.as_str() {
+        "s" => SLOWER * value,
+        "" => LITTLE,
+        _ => return false,
+    };
+    measure.full < measure.zero && measure.zero - value < room
+}
+
+/// A deviation of this share from what is asked for is not what is asked for.
+const FAR_OFF: f64 = 0.25;
+
+/// Whether a band follows a reference solution that does something else than what is judged.
+fn is_far_off(measure: &Measure, value: f64) -> bool {
+    let is_deviation = measure.unit.is_empty() && measure.full < measure.zero;
+    is_deviation && measure.reference.is_some() && value > FAR_OFF
+}
+
 /// What is predicted on paper should be about what the reference solution does.
 const UNLIKE: f64 = 0.5;
 
@@ -132,7 +180,9 @@ fn is_unlike(measure: &Measure) -> bool {
 }
 
 /// Bands against what the reference solution reaches: those of speeds, jerks, energies and the like, for which nothing says what can be, far
-/// above it; predictions of quite another number, of another arm or another loop.
+/// above it; those that follow one that is far from what is judged; those in which next to
+/// the reference solution nothing is earned; predictions of quite another number, of another arm or
+/// another loop.
 pub(super) fn against_reference(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     for (task, grade) in rubric.graded_tasks() {
         for check in &grade.checks {
@@ -157,6 +207,27 @@ pub(super) fn against_reference(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                         in_words(value)
                     ),
                     "narrow the band: `full` is the worst that still earns everything",
+                );
+            }
+            if is_far_off(measure, value) {
+                doubt(
+                    format!(
+                        "the reference solution itself reaches {}, and the band begins there: is what is judged what is asked for?",
+                        in_words(value)
+                    ),
+                    "compare the number in the check with what the brief and `target` ask for",
+                );
+            }
+            // answers of functions can be exact
+            let moves = matches!(task.work, TaskWork::Motion(..));
+            if moves && is_close(measure, value) {
+                doubt(
+                    format!(
+                        "no points from {} on, and the reference solution reaches {}: a submission that is hardly worse earns nothing",
+                        in_words(measure.zero),
+                        in_words(value)
+                    ),
+                    "widen the band: `zero` is what earns nothing, and solutions differ",
                 );
             }
             if let Some(predicted) = measure.prediction.filter(|_| is_unlike(measure)) {

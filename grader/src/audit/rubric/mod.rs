@@ -33,6 +33,7 @@ mod corners;
 mod far_draws;
 mod goals;
 mod hidden;
+mod levels;
 mod lost;
 mod mutant_words;
 mod names;
@@ -40,7 +41,9 @@ mod numbers;
 mod reach;
 mod related_bands;
 mod settings;
+mod starts;
 mod times;
+mod titles;
 mod twice;
 mod unused;
 mod variants;
@@ -116,6 +119,7 @@ const RULES: &[Rule] = &[
         |rubric, doubts| {
             settings::rule(rubric, doubts);
             settings::bodies(rubric, doubts);
+            levels::rule(rubric, doubts);
         },
     ),
     (
@@ -156,7 +160,10 @@ const RULES: &[Rule] = &[
     (
         "goals",
         "goals are apart, and what is to stay stays",
-        goals::rule,
+        |rubric, doubts| {
+            goals::rule(rubric, doubts);
+            starts::rule(rubric, doubts);
+        },
     ),
     (
         "hidden",
@@ -178,6 +185,7 @@ const RULES: &[Rule] = &[
         "words and numbers say what is graded",
         |rubric, doubts| {
             words::rule(rubric, doubts);
+            titles::rule(rubric, doubts);
             mutant_words::rule(rubric, doubts);
             times::rule(rubric, doubts);
             numbers::rule(rubric, doubts);

@@ -53,6 +53,7 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     }
     let typed = typed::table(lab).unwrap_or_default();
     for task in &lab.tasks {
+        doubts.extend(sideways_gravity(&task.name, &typed));
         let TaskWork::Motion(motion, _) = &task.work else {
             continue;
         };
@@ -75,6 +76,29 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             });
         }
     }
+}
+
+/// Gravity that pulls sideways more than down, as that of another frame would.
+fn sideways_gravity(task: &str, typed: &Table) -> Option<Doubt> {
+    let typed = typed::named(typed, "tasks", task)?;
+    let mut works = ["motion", "function"]
+        .into_iter()
+        .filter_map(|work| typed.get(work));
+    works.find_map(|work| {
+        let gravity = work.get("gravity_m_s2")?.as_array()?;
+        let gravity: Vec<f64> = gravity.iter().map(typed::number).collect::<Option<_>>()?;
+        let [x, y, z] = gravity.try_into().ok()?;
+        (libm::hypot(x, y) > z.abs()).then(|| Doubt {
+            rule: "settings",
+            of: format!("{task}/gravity_m_s2"),
+            what: format!(
+                "gravity is {} in the world, where z is up: it pulls sideways",
+                list(&[x, y, z])
+            ),
+            help: "write it along z of the world, whatever the lab's frame is: [0, 0, -9.81]"
+                .to_owned(),
+        })
+    })
 }
 
 /// A limit switch that reads true over more than this share of the joint's range says nothing.

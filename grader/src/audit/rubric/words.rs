@@ -3,6 +3,7 @@
 use kinemark_sim::text::Dimension;
 use toml::{Table, Value as Toml};
 
+use super::titles::TOUCHES;
 use super::{Doubt, Rubric};
 use crate::audit::quantities::stated;
 use crate::audit::typed;
@@ -29,8 +30,6 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
         of_names(rubric.lab, task, typed, doubts);
     }
     of_hints(rubric.lab, &table, doubts);
-    of_sides(&table, doubts);
-    of_entries(&table, doubts);
     if let Some(brief) = rubric.brief {
         of_title(rubric.lab, brief, doubts);
     }
@@ -110,108 +109,6 @@ fn of_commands(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
             format!("the brief says that `control` returns something in {said}, and commands are in rad, rad/s, m, m/s, N m or N"),
             "write the unit of the mode of the servo",
         ));
-    }
-}
-
-/// Words that exclude each other.
-const OPPOSITES: [[&str; 2]; 4] = [
-    ["near", "far"],
-    ["left", "right"],
-    ["front", "back"],
-    ["above", "below"],
-];
-
-/// Words of a moment at which something is touched.
-const TOUCHES: [&str; 6] = ["touch", "touches", "touched", "push", "pushed", "hits"];
-
-/// Words of a whole run.
-const WHOLE: [&str; 5] = [
-    "all the time",
-    "the whole time",
-    "the whole run",
-    "always",
-    "throughout",
-];
-
-/// A check whose title says the opposite of one of its keys, such as `side = "near"`.
-fn of_sides(table: &Table, doubts: &mut Vec<Doubt>) {
-    for task in typed::tables(table, "tasks") {
-        for check in typed::tables(task, "checks") {
-            let title = check
-                .get("title")
-                .and_then(Toml::as_str)
-                .unwrap_or_default();
-            let Some((_, keys)) = typed::kind(check) else {
-                continue;
-            };
-            let is_of_touch = TOUCHES.iter().any(|word| has_word(title, word));
-            if is_of_touch && keys.get("at").and_then(Toml::as_str) == Some("run") {
-                doubts.push(doubt(
-                    format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!(
-                        "\"{title}\" is about a touch, and at = \"run\" looks at the whole run"
-                    ),
-                    "write at = \"touch\", or another title",
-                ));
-            }
-            let is_of_all = WHOLE.iter().any(|words| has_word(title, words));
-            let run_s = task
-                .get("motion")
-                .and_then(|motion| typed::number(motion.get("duration_s")?));
-            let part = ["last_s", "hold_s"].into_iter().find_map(|key| {
-                let part_s = typed::number(keys.get(key)?)?;
-                (2.0 * part_s < run_s.unwrap_or(f64::INFINITY)).then_some((key, part_s))
-            });
-            if let (true, Some((key, part_s))) = (is_of_all, part) {
-                doubts.push(doubt(
-                    format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!("\"{title}\" is about the whole run, and `{key}` = {part_s} looks at its last part"),
-                    "choose a kind of check that looks at the whole run, such as joint-tracking, or another title",
-                ));
-            }
-            let said = keys.iter().find_map(|(key, value)| {
-                let value = value.as_str()?;
-                let pair = OPPOSITES.iter().find(|pair| pair.contains(&value))?;
-                let other = pair.iter().find(|word| **word != value)?;
-                (has_word(title, other) && !has_word(title, value)).then_some((key, value, other))
-            });
-            if let Some((key, value, other)) = said {
-                doubts.push(doubt(
-                    format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!("\"{title}\" says {other}, and {key} = \"{value}\""),
-                    "say the same in the title and in the key",
-                ));
-            }
-        }
-    }
-}
-
-/// A check that reads one entry of an answer, and is called after another.
-fn of_entries(table: &Table, doubts: &mut Vec<Doubt>) {
-    for task in typed::tables(table, "tasks") {
-        let checks = typed::tables(task, "checks");
-        let read = |check: &Table| -> Option<String> {
-            let (_, keys) = typed::kind(check)?;
-            Some(keys.get("entry")?.as_str()?.to_owned())
-        };
-        let entries: Vec<String> = checks.iter().filter_map(|check| read(check)).collect();
-        for check in &checks {
-            let title = check.get("title").and_then(Toml::as_str);
-            let (Some(title), Some(own)) = (title, read(check)) else {
-                continue;
-            };
-            let words = format!("{} {title}", typed::name(check));
-            let other = entries
-                .iter()
-                .find(|entry| **entry != own && has_word(&words, entry));
-            if let Some(other) = other.filter(|_| !has_word(&words, &own)) {
-                doubts.push(doubt(
-                    format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!("\"{title}\" is about `{other}`, and reads the entry `{own}`"),
-                    "name the entry that is meant, or give the check another name and title",
-                ));
-            }
-        }
     }
 }
 
@@ -531,7 +428,7 @@ fn number_at(text: &str) -> Option<f64> {
 }
 
 /// Whether a text has a word, in whatever letters; `-` and `_` part words.
-fn has_word(text: &str, word: &str) -> bool {
+pub(super) fn has_word(text: &str, word: &str) -> bool {
     let parts = |text: &str| -> Vec<String> {
         let parts = text.split(|c: char| !c.is_alphanumeric());
         let parts = parts.filter(|part| !part.is_empty());
@@ -552,94 +449,6 @@ mod tests {
         // what stands in a mark is part of none
         assert!(found.starts_with(&[-0.25, 3.0]), "{found:?}");
         assert_eq!(marks(brief).collect::<Vec<_>>(), [" x ", " y[1] "]);
-    }
-
-    #[test]
-    fn a_title_that_says_the_opposite_of_a_key_is_found() {
-        let table = |title: &str| {
-            let text = format!(
-                "[[tasks]]\nname = \"t\"\n[[tasks.checks]]\nname = \"c\"\ntitle = \"{title}\"\nbody-falls = {{ side = \"near\" }}\n"
-            );
-            text.parse::<Table>().expect("TOML")
-        };
-        for (title, count) in [
-            ("Over the far edge", 1),
-            ("Over the near edge", 0),
-            ("Near, not far", 0),
-            ("It falls", 0),
-        ] {
-            let mut doubts = Vec::new();
-            of_sides(&table(title), &mut doubts);
-            assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
-        }
-    }
-
-    #[test]
-    fn a_title_of_the_whole_run_with_a_check_of_its_last_part_is_found() {
-        for (title, check, count) in [
-            (
-                "It is held all the time",
-                "steady-error = { last_s = 0.5 }",
-                1,
-            ),
-            (
-                "It is held all the time",
-                "joint-reached = { hold_s = 0.5 }",
-                1,
-            ),
-            (
-                "It is held all the time",
-                "joint-reached = { hold_s = 2.0 }",
-                0,
-            ),
-            ("It stands at the end", "steady-error = { last_s = 0.5 }", 0),
-        ] {
-            let text = format!(
-                "[[tasks]]\nname = \"t\"\nmotion = {{ duration_s = 2.0 }}\n[[tasks.checks]]\nname = \"c\"\ntitle = \"{title}\"\n{check}\n"
-            );
-            let mut doubts = Vec::new();
-            of_sides(&text.parse::<Table>().expect("TOML"), &mut doubts);
-            assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
-        }
-    }
-
-    #[test]
-    fn a_title_that_names_the_entry_of_another_check_is_found() {
-        let table = |title: &str| {
-            let check = |name: &str, title: &str, entry: &str| {
-                format!(
-                    "[[tasks.checks]]\nname = \"{name}\"\ntitle = \"{title}\"\nfunction-cases = {{ entry = \"{entry}\" }}\n"
-                )
-            };
-            let text = format!(
-                "[[tasks]]\nname = \"t\"\n{}{}",
-                check("first", title, "inertia"),
-                check("second", "The damping ratio", "damping_ratio")
-            );
-            text.parse::<Table>().expect("TOML")
-        };
-        for (title, count) in [
-            ("The damping ratio", 1),
-            ("The inertia", 0),
-            ("Inertia and damping ratio", 0),
-            ("What resists", 0),
-        ] {
-            let mut doubts = Vec::new();
-            of_entries(&table(title), &mut doubts);
-            assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
-        }
-    }
-
-    #[test]
-    fn a_title_of_a_touch_with_a_check_of_the_whole_run_is_found() {
-        for (at, count) in [("run", 1), ("touch", 0)] {
-            let text = format!(
-                "[[tasks]]\nname = \"t\"\n[[tasks.checks]]\nname = \"c\"\ntitle = \"The can is pushed\"\ntcp-speed = {{ at = \"{at}\" }}\n"
-            );
-            let mut doubts = Vec::new();
-            of_sides(&text.parse::<Table>().expect("TOML"), &mut doubts);
-            assert_eq!(doubts.len(), count, "{at}: {doubts:?}");
-        }
     }
 
     #[test]
