@@ -62,6 +62,14 @@ fn words_of_the_brief_are_held_to_what_is_graded() {
         ),
         ("The run takes 3 s.", None),
         (
+            "| the shoulder above the ground | `robot.base_height` | 1.5 N s/m |",
+            Some("robot.base_height: the brief says 1.5, and the robot has 2"),
+        ),
+        (
+            "| `control(observation)` | every 20 ms | positions |",
+            Some("brief: it says a call every 0.02 s, and in lab.toml calls are every 0.01 s"),
+        ),
+        (
             "The motors give at most 80 N m at the shoulder.",
             Some("effort_limit of shoulder: the brief says 80 N m, and the servo has 100 N m"),
         ),
@@ -183,4 +191,43 @@ fn a_brief_without_its_functions_is_doubted_once_each() {
             "gravity"
         ]
     );
+}
+
+/// The limit of a check that is a student's number by chance.
+#[test]
+fn a_limit_of_a_check_needs_no_mark() {
+    for (limit, count) in [("2.0", 1), ("1.25", 0)] {
+        let own = own_lab()
+            .with(
+                "lab.toml",
+                "[parameters]\nout = 1.2",
+                "[parameters]\nout = 1.25",
+            )
+            .with("lab.toml", "full_s = 2.0", &format!("full_s = {limit}"));
+        let brief = format!("{BRIEF}Be quick: 1.25 of a second is enough.\n");
+        let found = problems(&rows(&own, &brief, &Accepted::default()));
+        let words = "out: the brief says 1.25, which differs from student to student";
+        let hits = found.iter().filter(|(_, what)| what.starts_with(words));
+        assert_eq!(hits.count(), count, "{limit}: {found:#?}");
+    }
+}
+
+/// A round number stands in every text; with the unit of the parameter it is the parameter's.
+#[test]
+fn a_round_number_needs_a_mark_where_its_unit_is_the_parameters() {
+    for (said, count) in [("0.5 s", 1), ("0.5 m/s", 0), ("0.5<!-- = stay --> s", 0)] {
+        let own = own_lab()
+            .with("lab.toml", "[parameters]", "[parameters]\nstay = 0.5")
+            .with(
+                "lab.toml",
+                "[variants]",
+                "[variants]\nstay = { from = 0.4, to = 0.6, step = 0.1 }",
+            )
+            .with("lab.toml", "dwell_s = 0.5", "dwell_s = \"= stay\"");
+        let brief = format!("{BRIEF}Be there for {said}.\n");
+        let found = problems(&rows(&own, &brief, &Accepted::default()));
+        let words = "stay: the brief says 0.5, which differs from student to student";
+        let hits = found.iter().filter(|(_, what)| what.starts_with(words));
+        assert_eq!(hits.count(), count, "{said}: {found:#?}");
+    }
 }

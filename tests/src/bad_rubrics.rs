@@ -370,7 +370,7 @@ fn every_fault_is_found_with_its_place_and_numbers() {
             "parameters = { out = [1.05, 1.25] }",
             "parameters = { out = [1.2, 1.2] }",
             "hidden",
-            "touch/another place: a hidden run has the numbers of the visible one",
+            "touch/another place: run 1 of the class has the numbers of the visible one",
         ),
         (
             "hidden.toml",
@@ -539,7 +539,7 @@ fn every_fault_is_found_with_its_place_and_numbers() {
             "\"= out\"",
             "1.2",
             "hidden",
-            "touch/another place: a hidden run has the numbers of the visible one",
+            "touch/another place: run 1 of the class has the numbers of the visible one",
         ),
         (
             "lab.toml",
@@ -807,6 +807,19 @@ fn a_doubt_is_accepted_with_a_reason_and_an_idle_entry_is_a_problem() {
         let error = load(own_lab().and("accepted.toml", entry(rule, because))).expect_err(words);
         assert!(format!("{error:?}").contains(words), "{error:?}");
     }
+}
+
+#[test]
+fn commands_that_do_nothing_are_doubted() {
+    let own = own_lab().with(
+        "lab.toml",
+        "kp = 1000.0, kd = 30.0, derivative = \"velocity\", ",
+        "",
+    );
+    let found = problems(&rows(&own, BRIEF, &Accepted::default()));
+    let words = "touch/servo: kp, ki and kd are zero for every joint: a command does nothing";
+    let hit = |(rule, what): &(String, String)| rule == "settings" && what == words;
+    assert!(found.iter().any(hit), "{found:#?}");
 }
 
 #[test]

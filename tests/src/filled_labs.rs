@@ -159,6 +159,29 @@ fn a_case_that_waits_gets_the_answer_of_the_solution_and_the_brief_its_plot() {
     assert_eq!(text, order);
 }
 
+/// A check of one entry is read before there is an answer with that entry.
+#[test]
+fn answers_are_filled_in_where_a_check_reads_one_entry_of_them() {
+    let lab = waiting();
+    lab.edit(", expected = { low = 3.0, high = 3.0 }", "");
+    lab.edit(
+        "zero = 1 }\n\n[[tasks]]",
+        "zero = 1, entry = \"low\" }\n\n[[tasks]]",
+    );
+    let ran = lab.bed().run(&["lab", "fill", "96-fill"]);
+    assert_eq!(ran.code, Some(0), "{ran:?}");
+    let text = std::fs::read_to_string(lab.bed().path("labs/96-fill/lab.toml")).expect("lab.toml");
+    assert_eq!(text.matches("expected = { high = ").count(), 2, "{text}");
+    // a name that no answer has is a slip still
+    lab.edit("entry = \"low\"", "entry = \"lov\"");
+    let ran = lab.bed().run(&["lab", "check", "96-fill", "--quick"]);
+    assert_eq!(ran.code, Some(3), "{ran:?}");
+    assert!(
+        ran.stderr.contains("no case expects an entry `lov`"),
+        "{ran:?}"
+    );
+}
+
 #[test]
 fn what_cannot_be_filled_is_said_and_nothing_is_written() {
     for (from, to, words) in [

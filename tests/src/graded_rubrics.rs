@@ -179,6 +179,31 @@ fn a_solution_that_stops_in_a_hidden_run_is_said_with_its_numbers_and_its_line()
     }
 }
 
+/// A parameter that is a size of the robot, and stands in no task.
+#[test]
+fn a_hidden_run_with_another_arm_is_not_the_visible_one() {
+    let lab = |dimensions: &str| {
+        motion_lab()
+            .with("lab.toml", ", unheard = \"= unheard\"", "")
+            .with("lab.toml", "[variants]", &format!("{dimensions}[variants]"))
+            .with("hidden.toml", "out = [0.45, 0.55]", "unheard = [0.7, 0.8]")
+    };
+    let own = lab("[dimensions]\nlink_lengths = [1.0, \"= unheard\"]\n\n");
+    // the joints go where they went, with any arm
+    let visible = "go/elsewhere: run ";
+    let found = found_by("hidden", &own);
+    assert!(
+        found.iter().all(|what| !what.starts_with(visible)),
+        "{found:#?}"
+    );
+    let found = found_by("hidden", &lab(""));
+    let words = "go/elsewhere: run 1 of the class has the numbers of the visible one, or others that the task does not use: unheard = 0.7";
+    assert!(
+        found.iter().any(|what| what.starts_with(words)),
+        "{found:#?}"
+    );
+}
+
 #[test]
 fn hidden_numbers_of_another_size_are_doubted() {
     let grams = motion_lab().with("hidden.toml", "[0.2, 2.0]", "[200.0, 2000.0]");

@@ -362,6 +362,33 @@ fn bed_text(bed: &TestBed, path: &str) -> toml::Table {
     text.parse().expect("TOML")
 }
 
+/// A second lab, in a folder whose robots are the own ones.
+#[test]
+fn a_robot_that_is_built_in_is_copied_to_the_labs_that_are_there() {
+    let bed = TestBed::new();
+    bed.write("labs/robots/scara.toml", SCARA);
+    for (args, words) in [
+        (
+            &["17-rr", "--task", "motion:turn"][..],
+            "labs/robots/rrbot.toml",
+        ),
+        (
+            &["18-scara", "--robot", "scara.toml", "--task", "fk"],
+            "labs/18-scara/lab.toml",
+        ),
+    ] {
+        let ran = bed.run(&[&["lab", "new"], args].concat());
+        assert_eq!(ran.code, Some(0), "{ran:?}");
+        assert!(ran.stdout.contains(words), "{ran:?}");
+    }
+    let ran = bed.run(&["lab", "new", "19-none", "--robot", "scar", "--task", "fk"]);
+    assert_eq!(ran.code, Some(2), "{ran:?}");
+    assert!(ran.stderr.contains("did you mean `scara`?"), "{ran:?}");
+    // the other one is there now, and is not written again
+    let ran = bed.run(&["lab", "new", "20-rr", "--task", "fk"]);
+    assert!(!ran.stdout.contains("robots/rrbot.toml"), "{ran:?}");
+}
+
 #[test]
 fn what_cannot_be_begun_is_refused_and_nothing_is_written() {
     let bed = TestBed::new();

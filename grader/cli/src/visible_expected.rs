@@ -70,7 +70,12 @@ impl Waiting {
                 let mut stated = tables(cases).filter_map(|case| case.get("expected")?.as_value());
                 stated.next().cloned()
             });
-            put(&mut document, [task, case], stated.unwrap_or(0.0.into()));
+            let unknown = || {
+                tasks(&self.document)
+                    .nth(task)
+                    .map_or(0.0.into(), of_entries)
+            };
+            put(&mut document, [task, case], stated.unwrap_or_else(unknown));
         }
         let text = document.to_string();
         let files = Replaced {
@@ -119,6 +124,28 @@ impl Waiting {
             Some(case.get("name")?.as_str()?.to_owned())
         });
         name.unwrap_or_default()
+    }
+}
+
+/// What stands for an answer that nobody knows yet: zero, or zeros by the names of the entries that the task speaks of.
+fn of_entries(task: &dyn TableLike) -> toml_edit::Value {
+    let checks = task.get("checks").into_iter().flat_map(tables);
+    let read = checks.filter_map(|check| {
+        let kind = check.get("function-cases")?.as_table_like()?;
+        Some(kind.get("entry")?.as_str()?.to_owned())
+    });
+    let turns = task
+        .get("function")
+        .and_then(|function| function.get("turns")?.as_array());
+    let turning = turns.into_iter().flatten();
+    let turning = turning.filter_map(|name| Some(name.as_str()?.to_owned()));
+    let mut zeros = InlineTable::new();
+    for name in read.chain(turning) {
+        zeros.insert(&name, 0.0.into());
+    }
+    match zeros.is_empty() {
+        true => 0.0.into(),
+        false => zeros.into(),
     }
 }
 

@@ -109,7 +109,7 @@ impl OfMutant<'_> {
         let (cases, help) = match task.cases.is_empty() {
             true => (
                 "hidden runs",
-                "add runs in which it shows, or say `named = false`: then it only has to lose points",
+                "let it show in the visible run, which is what a diagnosis looks at, or say `named = false`: then it only has to lose points",
             ),
             false => (
                 "cases",

@@ -109,14 +109,24 @@ const ENDS_OF_KEYS: [(&str, f64, &str); 12] = [
     ("kg", 1.0, "kg"),
 ];
 
-/// The numbers with a unit at `key` of lab.toml and below it, those in expressions such as `"= 0.5 * period"` too.
-pub(super) fn typed_at(key: &str, value: &Value) -> Vec<(f64, &'static str)> {
-    let end = ENDS_OF_KEYS.iter().find(|(end, ..)| {
+/// The unit of what stands at a key of lab.toml, where its end says one.
+pub(super) fn unit_of_key(key: &str) -> Option<&'static str> {
+    let (_, unit) = end_of_key(key)?;
+    Some(unit)
+}
+
+/// What one is at a key, and in which unit.
+fn end_of_key(key: &str) -> Option<(f64, &'static str)> {
+    let (_, scale, unit) = ENDS_OF_KEYS.iter().find(|(end, ..)| {
         key.strip_suffix(end)
             .is_some_and(|rest| rest.is_empty() || rest.ends_with('_'))
-    });
-    let unit = end.filter(|(_, _, unit)| !unit.is_empty());
-    let of_unit = |number: f64| unit.map(|(_, scale, unit)| (number * scale, *unit));
+    })?;
+    (!unit.is_empty()).then_some((*scale, *unit))
+}
+
+/// The numbers with a unit at `key` of lab.toml and below it, those in expressions such as `"= 0.5 * period"` too.
+pub(super) fn typed_at(key: &str, value: &Value) -> Vec<(f64, &'static str)> {
+    let of_unit = |number: f64| end_of_key(key).map(|(scale, unit)| (number * scale, unit));
     match value {
         Value::Float(number) => of_unit(*number).into_iter().collect(),
         Value::Integer(number) => of_unit(*number as f64).into_iter().collect(),

@@ -152,7 +152,7 @@ fn in_words(of: &OfMutant<'_>, why: &NotNamed) -> (String, String) {
             let goals: Vec<String> = goals.map(|(i, goal)| at_goal(i + 1, goal)).collect();
             (
                 goals.join("; "),
-                "move the start or the goal, so that the arm stands still where the mistake puts it"
+                "move the start or the goal, so that the arm stands still where the mistake puts it; or write `named = false`: of a mistake on the way the points alone can tell"
                     .to_owned(),
             )
         }

@@ -63,6 +63,12 @@ pub(super) fn judged_sliding(motion: &str, kind: &str, row: impl Fn(f64) -> Hand
     found(&arm, motion, kind, row)
 }
 
+/// The same of an arm whose elbow has no drive.
+pub(super) fn judged_undriven(motion: &str, kind: &str, row: impl Fn(f64) -> HandRow) -> Finding {
+    let arm = ARM.replacen("name = \"elbow\"", "name = \"elbow\"\npassive = true", 1);
+    found(&arm, motion, kind, row)
+}
+
 /// Why a check is refused for an arm whose joints have no limits.
 pub(super) fn refused_without_limits(motion: &str, kind: &str) -> String {
     let lines = ARM.lines().filter(|line| !line.starts_with("limit = "));

@@ -83,12 +83,7 @@ fn run(hidden: &HiddenRun, task: &str) -> Option<ExposedLab> {
         class: hidden.class.clone(),
         number: hidden.number,
         numbers: Dimensions::from_pairs(hidden.drawn.iter().cloned()),
-        words: entries(
-            hidden
-                .drawn
-                .iter()
-                .map(|(name, value)| (name.as_str(), Entry::from(value.clone()))),
-        ),
+        words: drawn_in_words(hidden),
         expected: None,
     };
     let task = hidden.lab.tasks.iter().find(|known| known.name == task)?;
@@ -96,6 +91,12 @@ fn run(hidden: &HiddenRun, task: &str) -> Option<ExposedLab> {
         lab: of_one_task(&hidden.lab, task.clone()),
         draws: vec![draw],
     })
+}
+
+/// What was drawn for a run, in words with fewer digits.
+pub(crate) fn drawn_in_words(run: &HiddenRun) -> String {
+    let drawn = run.drawn.iter();
+    entries(drawn.map(|(name, value)| (name.as_str(), Entry::from(value.clone()))))
 }
 
 /// `lab` with `task` alone. A hidden attempt is never compared with the path that students see.

@@ -31,6 +31,7 @@ mod standing;
 
 pub use expected::{answers_of, with_expected};
 pub use explanation::explain;
+pub(crate) use exposed::drawn_in_words;
 pub use exposed::{ExposedLab, NoAnswer, expose};
 pub(crate) use grader::{Examined, examined, prepare_mutant};
 pub use grader::{Interrupted, Parts, engine, engine_digest, grade, parts};

@@ -130,7 +130,10 @@ impl DrawCheck {
                 || "nothing to measure".to_owned(),
                 |value| with_unit_unlike(value, measure.full, &measure.unit),
             );
-            return format!("{}: {value}", measure.quantity);
+            // of a sweep, the level that lost most
+            let level = self.evidence.iter().find_map(|fact| fact.run.as_deref());
+            let level = level.map_or_else(String::new, |level| format!(", least under `{level}`"));
+            return format!("{}: {value}{level}", measure.quantity);
         }
         match (self.evidence.first(), self.score) {
             (Some(fact), _) => fact.message.clone(),

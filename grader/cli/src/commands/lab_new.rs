@@ -111,10 +111,10 @@ pub(crate) fn run(args: &Args) -> Result<ExitCode, Failure> {
         }
     }
     let mut written = Vec::new();
+    for path in &needs {
+        written.extend(copy_built_in(path, &labs)?);
+    }
     if found.is_none() {
-        for path in &needs {
-            written.extend(copy_built_in(files.as_ref(), path)?);
-        }
         note_in_words(
             "there is no folder `labs` here or above: it is made, with all that this lab needs in it",
         );
@@ -173,7 +173,8 @@ struct Content {
 /// A lab of these tasks.
 fn new_lab(args: &Args, files: &dyn Files) -> Result<Content, Failure> {
     let tasks = tasks(&args.tasks)?;
-    let robot_name = args.robot.as_deref().unwrap_or("rrbot");
+    let typed = args.robot.as_deref().unwrap_or("rrbot");
+    let robot_name = typed.strip_suffix(".toml").unwrap_or(typed);
     let robot = robot(files, robot_name)?;
     let new = NewLab {
         name: &args.name,
@@ -318,11 +319,24 @@ fn tasks(typed: &[String]) -> Result<Vec<NewTask>, Failure> {
     Ok(tasks)
 }
 
+/// The robot of this name in the labs folder, else the one that is built in.
 fn robot(files: &dyn Files, name: &str) -> Result<kinemark_sim::model::robot::Robot, Failure> {
-    let Some(found) = LabRobot::named(files, name, &RobotOptions::default())? else {
-        let known = robot_names(files);
+    let built_in = labs_folder::built_in();
+    let load = |files: &dyn Files| LabRobot::named(files, name, &RobotOptions::default());
+    let found = match load(files)? {
+        None => load(&built_in)?,
+        found => found,
+    };
+    let Some(found) = found else {
+        let mut known = robot_names(files);
+        known.extend(robot_names(&built_in));
+        known.sort();
+        known.dedup();
         return Err(Failure::usage(
-            format!("there is no robot file `{}`", robot_path(name)),
+            format!(
+                "there is no robot file `labs/{}`, and no robot called `{name}` is built in",
+                robot_path(name)
+            ),
             &suggest(name, "robots", known.iter().map(String::as_str)),
         )
         .coded(ErrorCode::UnknownName));
@@ -333,12 +347,14 @@ fn robot(files: &dyn Files, name: &str) -> Result<kinemark_sim::model::robot::Ro
         .map_err(|error| Failure::broken(error.to_string(), "correct the robot"))
 }
 
-/// Copies a file of the labs that are built in, so that the new lab has it; nothing where there is none, as for a row of joints.
-fn copy_built_in(files: &dyn Files, path: &str) -> Result<Option<PathBuf>, Failure> {
-    let Ok(Some(bytes)) = files.bytes(path) else {
+/// Copies a file of the labs that are built in into the folder `labs`, so that the new lab has it; nothing where it is there, and where
+/// there is none, as for a row of joints.
+fn copy_built_in(path: &str, labs: &Path) -> Result<Option<PathBuf>, Failure> {
+    let out = labs.join(path);
+    let built_in = labs_folder::built_in().bytes(path);
+    let (Ok(Some(bytes)), false) = (built_in, out.exists()) else {
         return Ok(None);
     };
-    let out = Path::new("labs").join(path);
     if let Some(folder) = out.parent() {
         std::fs::create_dir_all(folder).map_err(|error| {
             output::unwritten(folder, &error, "go to a folder that you may write to")

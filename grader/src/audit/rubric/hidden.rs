@@ -5,6 +5,7 @@ use kinemark_sim::text::Dimension;
 
 use super::unused::uses_parameters;
 use super::{Doubt, Rubric};
+use crate::judge::drawn_in_words;
 use crate::lab::staff::HiddenCases;
 use crate::lab::{Lab, Staff, Task, TaskWork};
 use crate::task::entry::Entry;
@@ -135,17 +136,19 @@ fn of_runs(lab: &Lab, staff: &Staff, task: &Task, doubts: &mut Vec<Doubt>) {
             .drawn
             .iter()
             .all(|(name, value)| is_of_lab(lab, name, value))
-            || run
-                .lab
-                .tasks
-                .iter()
-                .any(|other| other.name == task.name && is_same_task(other, task));
+            || run.lab.tasks.iter().any(|other| {
+                other.name == task.name && is_same_task((&run.lab, other), (lab, task))
+            });
         if is_visible && !known.contains(&run.class.as_str()) {
             known.push(&run.class);
             doubts.push(Doubt {
                 rule: "hidden",
                 of: format!("{}/{}", task.name, run.class),
-                what: "a hidden run has the numbers of the visible one".to_owned(),
+                what: format!(
+                    "run {} of the class has the numbers of the visible one, or others that the task does not use: {}",
+                    run.number,
+                    drawn_in_words(run)
+                ),
                 help: "draw other numbers, of parameters that this task uses: who types in an answer should lose here"
                     .to_owned(),
             });
@@ -224,14 +227,13 @@ fn drawn_twice(task: &Task, draws: &[&HiddenCases]) -> Option<Doubt> {
 }
 
 /// Whether two tasks with these names are the same in everything that is typed.
-fn is_same_task(a: &Task, b: &Task) -> bool {
-    format!("{:?}", a.work) == format!("{:?}", b.work)
-        && a.own
-            .as_ref()
-            .map(|own| own.robot_file.dimensions().clone())
-            == b.own
-                .as_ref()
-                .map(|own| own.robot_file.dimensions().clone())
+fn is_same_task((lab_of_a, a): (&Lab, &Task), (lab_of_b, b): (&Lab, &Task)) -> bool {
+    let robot = |lab: &Lab, task: &Task| {
+        let own = lab.of_task(task);
+        let name = own.robot.name().to_owned();
+        (name, own.robot_file.dimensions().clone())
+    };
+    format!("{:?}", a.work) == format!("{:?}", b.work) && robot(lab_of_a, a) == robot(lab_of_b, b)
 }
 
 /// Whether a hidden case changes dimensions of the robot into those that it has.

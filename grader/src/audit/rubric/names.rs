@@ -1,11 +1,12 @@
-//! Names in the brief, in hints and in what mutants say: what of `robot`, `target` and `sensors` they mention is there, and nothing waits
-//! to be written.
+//! Names in the brief, in hints and in what mutants say: what of `robot`, `target`, `sensors` and `given` they mention is there, and
+//! nothing waits to be written.
 
 use std::collections::BTreeSet;
 
 use super::{Doubt, Rubric};
 use crate::lab::{Task, TaskWork};
 use crate::submission::controller::{Grant, MEASURED};
+use crate::task::model::Given;
 use crate::task::value::Value;
 
 /// What a lab has not decided yet.
@@ -137,6 +138,7 @@ struct Known {
     robot: BTreeSet<String>,
     target: BTreeSet<String>,
     sensors: BTreeSet<String>,
+    given: BTreeSet<String>,
 }
 
 impl Known {
@@ -145,6 +147,7 @@ impl Known {
             robot: OF_EVERY_ROBOT.map(str::to_owned).into(),
             target: BTreeSet::new(),
             sensors: BTreeSet::new(),
+            given: BTreeSet::new(),
         };
         known
             .robot
@@ -158,6 +161,12 @@ impl Known {
                     let hidden = rubric.staff.draws.iter().flat_map(|draw| &draw.cases);
                     let cases = function.cases.iter().chain(hidden);
                     let robots = cases.filter_map(|case| case.robot.as_deref());
+                    for case in &function.cases {
+                        if let Given::Values { given, .. } = &case.given {
+                            let names = given.iter().map(|(name, _)| name.clone());
+                            known.given.extend(names);
+                        }
+                    }
                     let own = robots.flat_map(|robot| robot.dimensions().names());
                     known.robot.extend(own.map(str::to_owned));
                 }
@@ -189,6 +198,7 @@ impl Known {
             ("robot", &self.robot),
             ("target", &self.target),
             ("sensors", &self.sensors),
+            ("given", &self.given),
         ];
         all.into_iter().filter(|(_, names)| !names.is_empty())
     }

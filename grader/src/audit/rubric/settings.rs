@@ -66,6 +66,16 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
                 .iter()
                 .any(|gain| *gain != 0.0)
         });
+        let follows = matches!(motion.servo.mode, Mode::Position | Mode::Velocity);
+        if follows && !has_gain {
+            doubts.push(Doubt {
+                rule: "settings",
+                of: format!("{}/servo", task.name),
+                what: "kp, ki and kd are zero for every joint: a command does nothing".to_owned(),
+                help: "give the servo gains, `servo = { kp = ... }`, or choose mode `effort`"
+                    .to_owned(),
+            });
+        }
         if motion.servo.mode == Mode::Effort && has_gain {
             doubts.push(Doubt {
                 rule: "settings",

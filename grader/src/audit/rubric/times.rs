@@ -98,7 +98,7 @@ fn duration_s(words: &[&str]) -> Option<f64> {
 fn period_s(words: &[&str]) -> Option<f64> {
     let is_about = words
         .iter()
-        .any(|word| ["called", "calls"].contains(&bare(word)) || word.contains("control`"));
+        .any(|word| ["called", "calls"].contains(&bare(word)) || word.starts_with("`control"));
     if !is_about {
         return None;
     }
@@ -155,6 +155,7 @@ mod tests {
             ("`control` is called every 10 ms", Some(0.01)),
             ("Kinemark calls it 100 times a second", Some(0.01)),
             ("it is called at 50 Hz", Some(0.02)),
+            ("`control(observation)` | every 20 ms |", Some(0.02)),
             ("the light blinks every 10 ms", None),
             ("it is called 3 times", None),
         ] {

@@ -5,7 +5,7 @@ use toml::{Table, Value as Toml};
 
 use super::titles::TOUCHES;
 use super::{Doubt, Rubric};
-use crate::audit::quantities::stated;
+use crate::audit::quantities::{bare, stated, unit_of_key};
 use crate::audit::typed;
 use crate::lab::{Lab, Task, TaskWork};
 use crate::record::quantity::points;
@@ -57,18 +57,29 @@ fn of_sizes(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
             continue;
         }
         let words: Vec<&str> = cell.split_whitespace().collect();
-        let lengths = stated(&words).into_iter();
-        let lengths = lengths.filter(|stated| stated.unit == "m");
-        let stated: Vec<f64> = lengths.map(|stated| stated.value).collect();
+        let mut stated: Vec<(f64, &str)> = stated(&words)
+            .into_iter()
+            .map(|stated| (stated.value, stated.unit))
+            .collect();
+        if stated.is_empty() {
+            // in another unit, such as N s/m, which is that of the robot
+            let numbers = words.iter().filter_map(|word| bare(word).parse().ok());
+            stated = numbers.map(|number| (number, "")).collect();
+        }
         if stated.len() != values.len() {
             continue;
         }
         let pairs = keys.iter().zip(values).zip(stated);
-        for ((key, value), stated) in pairs {
+        for ((key, value), (stated, unit)) in pairs {
             if (value - stated).abs() > 1e-6 * value.abs().max(1e-3) {
+                let in_unit = |number: f64| format!("{number} {unit}").trim_end().to_owned();
                 doubts.push(doubt(
                     format!("robot.{key}"),
-                    format!("the brief says {stated} m, and the robot has {value} m"),
+                    format!(
+                        "the brief says {}, and the robot has {}",
+                        in_unit(stated),
+                        in_unit(value)
+                    ),
                     "write the robot's number in the brief",
                 ));
             }
@@ -246,8 +257,38 @@ fn of_budgets(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
     }
 }
 
+/// The unit of a parameter, or of an element of one: that of a key whose value it is.
+fn typed_unit(table: &Table, entry: &str) -> Option<&'static str> {
+    fn of(key: &str, value: &Toml, wanted: &str) -> Option<&'static str> {
+        match value {
+            Toml::String(text) if text == wanted => unit_of_key(key),
+            Toml::Array(items) => items.iter().find_map(|item| of(key, item, wanted)),
+            Toml::Table(table) => table.iter().find_map(|(key, item)| of(key, item, wanted)),
+            _ => None,
+        }
+    }
+    let wanted = format!("= {entry}");
+    table
+        .iter()
+        .find_map(|(key, value)| of(key, value, &wanted))
+}
+
+/// Whether the band of a check ends at a number, with either sign.
+fn is_of_band(lab: &Lab, value: f64) -> bool {
+    let mut all = lab.tasks.iter().flat_map(|task| match &task.work {
+        TaskWork::Function(_, checks) => {
+            let bands = checks.iter().map(|check| check.kind.band());
+            bands.collect::<Vec<_>>()
+        }
+        TaskWork::Motion(_, checks) => checks.iter().map(|check| check.kind.band()).collect(),
+    });
+    let is_end = |end: f64| same(end.abs(), value.abs());
+    all.any(|band| band.is_some_and(|(band, _)| is_end(band.full) || is_end(band.zero)))
+}
+
 /// Numbers that differ from student to student, typed without a mark.
 fn of_variants(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
+    let table = typed::table(lab).unwrap_or_default();
     for rule in &lab.variants {
         let name = &rule.name;
         let values: Vec<(String, f64)> = match lab.parameters.get(name) {
@@ -263,7 +304,11 @@ fn of_variants(lab: &Lab, brief: &str, doubts: &mut Vec<Doubt>) {
             // 1 and 0.5 stand in every text
             let is_telling = (value * 10.0 - (value * 10.0).round()).abs() > 1e-9
                 || value.abs() > 1.0 && (value - value.round()).abs() > 1e-9;
-            if is_marked || !is_telling || !unmarked_numbers(brief).any(|x| same(x, value)) {
+            // a limit of a check may be the same number by chance
+            let is_alone = is_telling && !is_of_band(lab, value);
+            let unit = typed_unit(&table, &entry);
+            let mut said = unmarked_numbers(brief).filter(|(number, _)| same(*number, value));
+            if is_marked || !said.any(|(_, of)| is_alone || of.is_some() && of == unit) {
                 continue;
             }
             doubts.push(doubt(
@@ -312,8 +357,8 @@ fn marks(brief: &str) -> impl Iterator<Item = &str> {
     marks.filter_map(|rest| Some(rest.split_once("-->")?.0))
 }
 
-/// The numbers of a brief that have no mark.
-fn unmarked_numbers(brief: &str) -> impl Iterator<Item = f64> {
+/// The numbers of a brief that have no mark, each with its unit.
+fn unmarked_numbers(brief: &str) -> impl Iterator<Item = (f64, Option<&'static str>)> {
     let is_of_number = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
     let mut at = 0;
     std::iter::from_fn(move || {
@@ -326,7 +371,9 @@ fn unmarked_numbers(brief: &str) -> impl Iterator<Item = f64> {
             let is_marked = brief[at..].trim_start().starts_with("<!-- =");
             let number = text[..end].trim_end_matches('.').parse();
             if let (Ok(number), false) = (number, is_marked) {
-                return Some(number);
+                let words: Vec<&str> = text.split_whitespace().take(4).collect();
+                let with_unit = stated(&words).into_iter().find(|stated| stated.at == 0);
+                return Some((number, with_unit.map(|stated| stated.unit)));
             }
         }
     })
@@ -445,9 +492,12 @@ mod tests {
     #[test]
     fn numbers_without_a_mark_are_found_and_the_others_are_not() {
         let brief = "Go to 1.45<!-- = x --> and -0.25, in 3 s. A mark: <!-- = y[1] -->";
-        let found: Vec<f64> = unmarked_numbers(brief).collect();
+        let found: Vec<_> = unmarked_numbers(brief).collect();
         // what stands in a mark is part of none
-        assert!(found.starts_with(&[-0.25, 3.0]), "{found:?}");
+        assert!(
+            found.starts_with(&[(-0.25, None), (3.0, Some("s"))]),
+            "{found:?}"
+        );
         assert_eq!(marks(brief).collect::<Vec<_>>(), [" x ", " y[1] "]);
     }
 

@@ -91,14 +91,22 @@ impl RunMeasure for JointLimits {
         let quantity = format!("greatest violation {of} (negative: within the limits)");
         let mut finding = Finding::against(band, value, unit, quantity);
         if let (Some((first, first_joint)), true) = (breach, finding.is_lost()) {
-            let message = format!(
-                "joint `{}` leaves its limits at {}; joint `{}` is {} {unit} beyond at its worst, at {}",
-                facts.joint_name(first_joint),
-                seconds(facts.time_s(first)),
-                facts.joint_name(joint),
-                trimmed(value, 4),
-                seconds(facts.time_s(tick)),
-            );
+            let (name, first_s) = (facts.joint_name(joint), seconds(facts.time_s(first)));
+            let message = match value < 0.0 {
+                // the band asks for room before the limit
+                true => format!(
+                    "joint `{name}` comes within {} {unit} of a limit at {}, and {} {unit} are asked for",
+                    trimmed(-value, 4),
+                    seconds(facts.time_s(tick)),
+                    trimmed(-band.full, 4),
+                ),
+                false => format!(
+                    "joint `{}` leaves its limits at {first_s}; joint `{name}` is {} {unit} beyond at its worst, at {}",
+                    facts.joint_name(first_joint),
+                    trimmed(value, 4),
+                    seconds(facts.time_s(tick)),
+                ),
+            };
             finding = finding.with(Evidence {
                 value: Some(trace.q.at(first)[first_joint]),
                 limit: Some(band.full),
@@ -107,6 +115,7 @@ impl RunMeasure for JointLimits {
             });
         }
         finding.advise(match facts.units(joint) {
+            _ if value < 0.0 => "Keep away from the limits: turn back before, and slower.",
             JointUnits::Sliding => "Take positions between the limits.",
             JointUnits::Turning | JointUnits::Mixed => {
                 "Take angles between the limits: `wrap_pi` brings an angle into (-pi, pi]."
@@ -117,7 +126,7 @@ impl RunMeasure for JointLimits {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::by_hand::{HandRow, judged_sliding, refused_without_limits, value};
+    use crate::check::by_hand::{HandRow, judged, judged_sliding, refused_without_limits, value};
 
     #[test]
     fn a_joint_that_is_named_is_judged_alone_and_in_its_unit() {
@@ -129,6 +138,24 @@ mod tests {
         assert!(measure.quantity.contains("joint `elbow`"), "{measure:?}");
         assert!(!value(&finding).is_nan());
     }
+    /// A band below zero asks for room before the limit.
+    #[test]
+    fn a_joint_that_comes_near_its_limit_has_not_left_it() {
+        let motion = "mode = \"effort\"\nduration_s = 1.0";
+        let kind = "joint-limits = { joint = \"shoulder\", full_rad = -6.0, zero_rad = -1.0 }";
+        let finding = judged(motion, kind, |_| HandRow {
+            q: [1.0, 0.0],
+            ..HandRow::default()
+        });
+        let message = &finding.evidence.first().expect("a fact").message;
+        assert!(
+            message.contains("joint `shoulder` comes within 5."),
+            "{message}"
+        );
+        assert!(message.ends_with("and 6 rad are asked for"), "{message}");
+        assert!(finding.next_step.starts_with("Keep away"), "{finding:?}");
+    }
+
     #[test]
     fn a_limit_that_is_not_there_gives_no_points_away() {
         let motion = "mode = \"effort\"\nduration_s = 1.0";

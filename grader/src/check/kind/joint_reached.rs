@@ -97,7 +97,15 @@ impl RunMeasure for JointReached {
         let values = (0..facts.trace.len()).map(error_at).collect();
         let mut curve = facts.curve(title, unit, values, band);
         curve.marks = vec![(facts.time_s(first), "judged from here".to_owned())];
+        let is_passive = facts
+            .robot
+            .moving_joints()
+            .nth(joint)
+            .is_some_and(|joint| joint.passive);
         let advice = match facts.motion.servo.mode {
+            _ if is_passive => format!(
+                "Joint `{name}` has no drive: move the other joints so that it comes to {position} {unit} and stays there."
+            ),
             Mode::Position | Mode::Prescribed => {
                 format!("Return {position} for joint `{name}` from `control`, at every call.")
             }
@@ -157,7 +165,7 @@ impl JointReached {
 
 #[cfg(test)]
 mod tests {
-    use crate::check::by_hand::{HandRow, judged, value};
+    use crate::check::by_hand::{HandRow, judged, judged_undriven, value};
 
     const MOTION: &str = "mode = \"effort\"\nduration_s = 1.0";
 
@@ -183,6 +191,18 @@ mod tests {
                 finding.next_step
             );
         }
+    }
+
+    #[test]
+    fn nobody_is_advised_to_drive_a_joint_without_a_drive() {
+        let kind = "joint-reached = { joint = \"elbow\", position_rad = 3.1, hold_s = 0.5, full_rad = 0.1, zero_rad = 1.0 }";
+        let finding = judged_undriven(MOTION, kind, |_| HandRow::default());
+        let advice = "Joint `elbow` has no drive: move the other joints";
+        assert!(
+            finding.next_step.starts_with(advice),
+            "{}",
+            finding.next_step
+        );
     }
 
     #[test]

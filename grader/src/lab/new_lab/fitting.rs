@@ -156,6 +156,34 @@ impl NewLab<'_> {
         })
     }
 
+    /// Ranges about the positions of a sample for each joint, and the number of branches of a pose of this form, which is the same at
+    /// corners of the ranges: as narrow as that needs.
+    pub(super) fn about_pose(&self, form: PoseForm, number: usize) -> (String, usize) {
+        let q = self.q(number);
+        let at = |q: &[f64]| {
+            let pose = pose_in(self.robot, self.frame(), q)?;
+            self.branches(form, &form.of(&pose))
+        };
+        let branches = at(&q).unwrap_or(1);
+        let corner = |half: f64, which: usize| -> Vec<f64> {
+            let joints = q.iter().enumerate();
+            joints
+                .map(|(joint, q)| match which >> (joint % 3) & 1 {
+                    0 => q - half,
+                    _ => q + half,
+                })
+                .collect()
+        };
+        let is_same = |half: &f64| (0..8).all(|which| at(&corner(*half, which)) == Some(branches));
+        let narrowest = 0.1 * ABOUT;
+        let half = [ABOUT, 0.3 * ABOUT].into_iter().find(is_same);
+        let half = half.unwrap_or(narrowest);
+        let ranges = self.ranges(number, |q, (low, high)| {
+            ((q - half).max(low), (q + half).min(high))
+        });
+        (ranges, branches)
+    }
+
     /// How many branches reach numbers of a form.
     fn branches(&self, form: PoseForm, numbers: &[f64]) -> Option<usize> {
         let target = pose_target(self.robot, self.frame(), form, numbers)?;
@@ -241,7 +269,11 @@ impl NewLab<'_> {
             return "[]".to_owned();
         };
         let inertias = mass_matrix(self.robot, &home);
-        let gains = (0..self.robot.n()).map(|i| trimmed(significant(factor * inertias[(i, i)]), 6));
+        let gains = self.robot.moving_joints().enumerate().map(|(i, joint)| {
+            // what has no drive takes no command
+            let factor = if joint.passive { 0.0 } else { factor };
+            trimmed(significant(factor * inertias[(i, i)]), 6)
+        });
         format!("[{}]", gains.collect::<Vec<_>>().join(", "))
     }
 }

@@ -216,8 +216,9 @@ impl NewLab<'_> {
 
     fn motion_toml(&self, task: &NewTask, mode: &str) -> String {
         let name = parameter(task);
-        let joint = self.robot.moving_joints().next();
-        let joint = joint.map_or("?", |joint| joint.name.as_str());
+        let mut joints = self.robot.moving_joints().enumerate();
+        let driven = joints.find(|(_, joint)| !joint.passive);
+        let (entry, joint) = driven.map_or((0, "?"), |(entry, joint)| (entry, joint.name.as_str()));
         [
             format!(
                 "[tasks.motion]\nmode = \"{mode}\"  # what a command of `control` is\nduration_s = 5.0\ntarget = \"= {name}\"\n{}",
@@ -227,7 +228,7 @@ impl NewLab<'_> {
                 "arrives",
                 4,
                 &format!(
-                    "joint-reached = {{ joint = \"{joint}\", position_rad = \"= {name}[0]\", hold_s = 0.5, full_rad = 0.01, zero_rad = 0.1 }}"
+                    "joint-reached = {{ joint = \"{joint}\", position_rad = \"= {name}[{entry}]\", hold_s = 0.5, full_rad = 0.01, zero_rad = 0.1 }}"
                 ),
             ),
         ]

@@ -42,8 +42,9 @@ impl NewLab<'_> {
                     draw(name, "places nearby", what)
                 }
                 NewTaskKind::InversePose => {
-                    let branches = self.poses().map_or(1, |poses| poses[0].branches);
-                    let what = format!("q_rad = {}\nbranches = {branches}", self.about(1));
+                    let form = self.poses().map_or(PoseForm::Full, |poses| poses[0].form);
+                    let (ranges, branches) = self.about_pose(form, 1);
+                    let what = format!("q_rad = {ranges}\nbranches = {branches}");
                     draw(name, "poses nearby", what)
                 }
                 NewTaskKind::Goals => {
