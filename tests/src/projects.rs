@@ -474,8 +474,7 @@ mod built {
         watched_after("p/submission.c", "two\n");
         assert_eq!(graded(&bed, "p"), digest(&at(2.0)));
         watched_after("p/submission.c", "nothing\n");
-        serving.line_with("error: no nothing");
-        serving.line_with("did-not-build");
+        serving.lines_with(&["error: no nothing", "did-not-build"]);
         let page = serving.get("/report.html").body;
         assert!(page.contains("error: no nothing"), "not in the page");
         watched_after("p/submission.c", "two\n");

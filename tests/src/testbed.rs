@@ -301,6 +301,16 @@ impl Serving {
         }
     }
 
+    /// Waits for a line with each of these words, in any order: two outputs are read here, and what is written to both at once can come
+    /// either way.
+    pub(crate) fn lines_with(&self, all: &[&str]) {
+        let mut wanted = all.to_vec();
+        while !wanted.is_empty() {
+            let line = self.line();
+            wanted.retain(|words| !line.contains(words));
+        }
+    }
+
     /// Asks for a path, seen from the address that was printed.
     pub(crate) fn get(&self, path: &str) -> Answer {
         self.get_from(&self.root, path)
