@@ -231,7 +231,11 @@ test("what a hostile submission says is shown, and does nothing", async () => {
     assert.equal(await page.locator("iframe, img[src='x'], object, embed, [onerror], [onload]").count(), 0);
     assert.doesNotMatch(readFileSync(report("hostile"), "utf8"), /[\u0000-\u0008\u000b-\u001f\u202a-\u202e\u2066-\u2069]/);
     // everything that can be pressed is pressed
-    for (const button of await page.locator("[data-replay] button").all()) if (await button.isVisible()) await button.click();
+    for (const button of await page.locator("[data-replay] button").all()) {
+      if (await button.isVisible()) await button.click();
+      // a replay that fills the screen covers the next one
+      await page.evaluate(() => document.fullscreenElement && document.exitFullscreen());
+    }
     await check.plotsSeek(page);
     await check.momentsSeek(page, 40);
   });
