@@ -130,16 +130,10 @@ fn of_entries(table: &Table, doubts: &mut Vec<Doubt>) {
     }
 }
 
-/// Words of what is the better the less of it there is, and of what has a least.
-const LESS: [&str; 7] = [
-    "in time",
-    "within the time",
-    "quick",
-    "quickly",
-    "soon",
-    "at most",
-    "no more than",
-];
+/// Words of a time that is the better the shorter; of a speed they say the reverse.
+const SHORT: [&str; 5] = ["in time", "within the time", "quick", "quickly", "soon"];
+/// Words of what has a most, and of what has a least.
+const LESS: [&str; 2] = ["at most", "no more than"];
 const MORE: [&str; 3] = ["at least", "no less than", "not before"];
 
 /// A check that is upside down: its title asks for little, and more is better, or the reverse.
@@ -161,7 +155,9 @@ fn of_ends(table: &Table, doubts: &mut Vec<Doubt>) {
             let said = |words: &'static [&'static str]| {
                 words.iter().find(|words| has_word(title, words)).copied()
             };
-            let (less, more) = (said(&LESS), said(&MORE));
+            let is_time = keys.contains_key("full_s");
+            let less = said(&LESS).or_else(|| said(&SHORT).filter(|_| is_time));
+            let more = said(&MORE);
             let wrong = match (less, more) {
                 (Some(less), None) if at_least => {
                     Some((less, "with at_least = true more is better"))
@@ -306,6 +302,11 @@ mod tests {
                 1,
             ),
             ("It falls in time", "full_s = 1.0, zero_s = 2.0", 0),
+            (
+                "The joint is quick",
+                "full_rad_s = 2.0, zero_rad_s = 1.0, at_least = true",
+                0,
+            ),
             ("It takes at least 15 s", "full_s = 1.0, zero_s = 2.0", 1),
             (
                 "It takes at least 15 s",
