@@ -227,7 +227,7 @@ fn what_cannot_happen_is_refused_at_its_place() {
             "event = \"body-fell\", body = \"can\"",
             "body = \"can\"",
             "lab::occurrence",
-            "one of `event`, `touch` and `sensor`",
+            "one of `event`, `touch`, `sensor`",
         ),
         (
             "sensor = \"stretched\", becomes = true",
@@ -258,6 +258,24 @@ fn what_cannot_happen_is_refused_at_its_place() {
             "sensor = \"stretched\"",
             "lab::occurrence",
             "`becomes` is missing",
+        ),
+        (
+            "sensor = \"stretched\", becomes = true",
+            "joint = \"elbow\", becomes = true",
+            "lab::occurrence",
+            "neither true nor false",
+        ),
+        (
+            "sensor = \"stretched\", becomes = true",
+            "joint = \"elbow\"",
+            "lab::occurrence",
+            "what its position `becomes`",
+        ),
+        (
+            "sensor = \"stretched\", becomes = true",
+            "joint = \"elbow\", body = \"can\", becomes = { below = 1.0 }",
+            "lab::occurrence",
+            "`body` has no meaning",
         ),
         (
             "{ event = \"moved\", body = \"can\" }, ",
@@ -357,6 +375,62 @@ fn a_body_may_have_to_be_turned() {
     // after a quarter turn this can looks as before
     let same = place("turned_deg = 90.0, turned_within_deg = 10.0, turned_every_deg = 90.0, ");
     assert_eq!(same["points"], any_way, "{same}");
+}
+
+#[test]
+fn a_joint_that_passes_a_position_happens_as_its_encoder_says() {
+    let encoder = own_lab();
+    let joint = own_lab().with(
+        "lab.toml",
+        "{ sensor = \"elbow_encoder\", becomes",
+        "{ joint = \"elbow\", becomes",
+    );
+    for out in [GOOD, "0.75", "min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.3)"] {
+        let [read, passed] = [&encoder, &joint].map(|lab| {
+            let task = lab.graded(&tip(out), 1);
+            check(&task, "steps")["points"].clone()
+        });
+        assert_eq!(read, passed, "{out}");
+    }
+    let passed = own_lab().with(
+        "lab.toml",
+        "sensor = \"stretched\", becomes = true }",
+        "joint = \"elbow\", becomes = { below = 1.9 } }",
+    );
+    let task = passed.graded(&tip(GOOD), 1);
+    let words = message(check(&task, "unstretched"));
+    assert!(
+        words.starts_with("joint `elbow` falls below 1.9 rad at "),
+        "{words}"
+    );
+}
+
+#[test]
+fn the_speed_at_which_a_switch_is_reached_may_count() {
+    let lab = own_lab().with(
+        "lab.toml",
+        "sensor-reads = { sensor = \"stretched\", value = false }",
+        "joint-speed = { joint = \"elbow\", at = { sensor = \"stretched\", becomes = true }, full_rad_s = 0.1, zero_rad_s = 10.0 }",
+    );
+    let over = lab.graded(&tip("min(0.75 + 0.5 * max(t - 0.5, 0.0), 1.3)"), 1);
+    let pressed = check(&over, "pressed");
+    let words = message(pressed);
+    assert!(
+        words.starts_with("joint `elbow` turns at ")
+            && words.ends_with(" s, just before `stretched` becomes true"),
+        "{words}"
+    );
+    // the elbow stretches while the hand goes out at 0.5 m/s
+    let speed = pressed["measure"]["value"].as_f64().expect("a speed");
+    assert!(speed > 0.3 && speed < 3.0, "{pressed}");
+
+    let idle = lab.graded(&tip("0.75"), 1);
+    let pressed = check(&idle, "pressed");
+    assert_eq!(pressed["points"], 0.0, "{pressed}");
+    assert_eq!(
+        message(pressed),
+        "the speed counts when `stretched` becomes true, and that never happens"
+    );
 }
 
 #[test]

@@ -1,4 +1,5 @@
-//! Something that may happen in a run, as a check names it: an event, a touch, or a sensor that comes to read something.
+//! Something that may happen in a run, as a check names it: an event, a touch, a sensor that comes to read something, or a joint that
+//! passes a position.
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,8 +20,8 @@ problems! {
     /// What is wrong with the name of something that may happen.
     enum OccurrenceProblem {
         NotOne:
-            "lab::occurrence", "what happens is one of `event`, `touch` and `sensor`", "here",
-            "such as `event = \"body-fell\", body = \"can\"`, `touch = [\"arm\", \"shelf\"]` or `sensor = \"switch\", becomes = true`";
+            "lab::occurrence", "what happens is one of `event`, `touch`, `sensor`, and a `joint` with what its position `becomes`", "here",
+            "such as `event = \"body-fell\", body = \"can\"`, `touch = [\"arm\", \"shelf\"]`, `sensor = \"switch\", becomes = true` or `joint = \"elbow\", becomes = { above = 0.5 }`";
         UnknownEvent { event: String, known: Vec<String> }:
             "lab::occurrence", "no event is called `{event}`", "not an event", near(event, "events", known);
         NotOf { key: &'static str, event: String, of: &'static str }:
@@ -34,6 +35,9 @@ problems! {
                 true => "a switch reads true or false: write `becomes = true`",
                 false => "it reads numbers: write `becomes = { above = 2.0 }` or `becomes = { below = 2.0 }`",
             };
+        OfJoint { joint: String }:
+            "lab::occurrence", "the position of joint `{joint}` is a number, neither true nor false", "this one",
+            "write `becomes = { above = 0.5 }` or `becomes = { below = 0.5 }`, in rad, or m of a prismatic joint";
     }
 }
 
@@ -46,7 +50,7 @@ pub(super) struct OccurrenceTable {
     pub(super) event: Option<At<String>>,
     /// The body of the event; any where it is left out.
     pub(super) body: Option<At<String>>,
-    /// The joint of the event; any where it is left out.
+    /// The joint of the event; any where it is left out. Without an event, the joint whose position comes to be what `becomes` says.
     pub(super) joint: Option<At<String>>,
     /// In place of an event, two that touch, as in `contact-impulse`.
     pub(super) touch: Option<[At<String>; 2]>,
@@ -55,11 +59,12 @@ pub(super) struct OccurrenceTable {
     /// The part of a sensor with several numbers, such as `fz`; the first where it is left out.
     pub(super) part: Option<At<String>>,
     /// What the sensor comes to read: `true` or `false` of a switch, `{ above = 2.0 }` or `{ below = 2.0 }` of others, in the
-    /// sensor's unit. It happens anew each time, not at the start.
+    /// sensor's unit; or which position the joint passes, in rad, or m of a prismatic joint. It happens anew each time, not at the
+    /// start.
     pub(super) becomes: Option<Becomes>,
 }
 
-/// What a sensor comes to read.
+/// What a sensor comes to read, or a position comes to be.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize, JsonSchema)]
 #[serde(
     untagged,
@@ -92,6 +97,12 @@ pub(super) enum Occurrence {
     Touch([TouchingParty; 2]),
     /// A number that a sensor reads comes to be so.
     Sensor { channel: Channel, becomes: Becomes },
+    /// The position of a joint comes to be so, in `unit`.
+    Position {
+        joint: usize,
+        becomes: Becomes,
+        unit: &'static str,
+    },
 }
 
 impl OccurrenceTable {
@@ -112,6 +123,7 @@ impl OccurrenceTable {
                 self.has_no_owner(reading, "a sensor", "")?;
                 self.of_sensor(reading, sensor)
             }
+            (None, None, None) => self.of_position(reading),
             _ => reading.refuse(OccurrenceProblem::NotOne),
         }
     }
@@ -178,6 +190,29 @@ impl OccurrenceTable {
         Ok(Occurrence::Sensor { channel, becomes })
     }
 
+    fn of_position(&self, reading: &MotionReading<'_>) -> Result<Occurrence, LabError> {
+        let (Some(joint), Some(becomes)) = (&self.joint, self.becomes) else {
+            return reading.refuse(OccurrenceProblem::NotOne);
+        };
+        for (key, typed) in [("body", &self.body), ("part", &self.part)] {
+            if let Some(typed) = typed {
+                let event = "the position of a joint".to_owned();
+                let of = "";
+                return reading.refuse_at(typed, OccurrenceProblem::NotOf { key, event, of });
+            }
+        }
+        let index = reading.joint(joint)?;
+        if matches!(becomes, Becomes::Switched(_)) {
+            let name = joint.get_ref().clone();
+            return reading.refuse_at(joint, OccurrenceProblem::OfJoint { joint: name });
+        }
+        Ok(Occurrence::Position {
+            joint: index,
+            becomes,
+            unit: reading.units(Some(index)).position(),
+        })
+    }
+
     fn has_no_owner(
         &self,
         reading: &MotionReading<'_>,
@@ -218,6 +253,22 @@ impl Becomes {
             Self::Below { below } => value < below,
         }
     }
+
+    /// That the value of `owner` comes to be so, in `unit`.
+    fn in_words(self, owner: &str, unit: &str) -> String {
+        match self {
+            Self::Switched(wanted) => format!("{owner} becomes {wanted}"),
+            Self::Above { above } => format!("{owner} rises above {}", with_unit(above, unit)),
+            Self::Below { below } => format!("{owner} falls below {}", with_unit(below, unit)),
+        }
+    }
+}
+
+/// The ticks of a run of so many at which something holds that did not hold at the tick before.
+fn comes_to_hold(count: usize, holds: impl Fn(usize) -> bool) -> Vec<usize> {
+    (1..count)
+        .filter(|tick| holds(*tick) && !holds(tick - 1))
+        .collect()
 }
 
 impl Occurrence {
@@ -239,11 +290,11 @@ impl Occurrence {
                 ticks.sort_unstable();
                 ticks
             }
-            Self::Sensor { channel, becomes } => {
-                let read = |tick: usize| becomes.holds(trace.sensors.at(tick)[channel.index]);
-                (1..trace.len())
-                    .filter(|tick| read(*tick) && !read(tick - 1))
-                    .collect()
+            Self::Sensor { channel, becomes } => comes_to_hold(trace.len(), |tick| {
+                becomes.holds(trace.sensors.at(tick)[channel.index])
+            }),
+            Self::Position { joint, becomes, .. } => {
+                comes_to_hold(trace.len(), |tick| becomes.holds(trace.q.at(tick)[*joint]))
             }
         }
     }
@@ -274,18 +325,13 @@ impl Occurrence {
                 format!("{one} touches {other}")
             }
             Self::Sensor { channel, becomes } => {
-                let Channel { name, unit, .. } = channel;
-                match becomes {
-                    Becomes::Switched(true) => format!("`{name}` becomes true"),
-                    Becomes::Switched(false) => format!("`{name}` becomes false"),
-                    Becomes::Above { above } => {
-                        format!("`{name}` rises above {}", with_unit(*above, unit))
-                    }
-                    Becomes::Below { below } => {
-                        format!("`{name}` falls below {}", with_unit(*below, unit))
-                    }
-                }
+                becomes.in_words(&format!("`{}`", channel.name), channel.unit)
             }
+            Self::Position {
+                joint,
+                becomes,
+                unit,
+            } => becomes.in_words(&format!("joint `{}`", facts.joint_name(*joint)), unit),
         }
     }
 
@@ -299,6 +345,7 @@ impl Occurrence {
             },
             Self::Touch(_) => "contacts".to_owned(),
             Self::Sensor { channel, .. } => format!("sensors[{}]", channel.index),
+            Self::Position { joint, .. } => format!("q[{joint}]"),
         }
     }
 }

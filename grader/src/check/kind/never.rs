@@ -1,4 +1,5 @@
-//! never: something must not happen in the run: an event, a touch, or a sensor that comes to read something.
+//! never: something must not happen in the run: an event, a touch, a sensor that comes to read something, or a joint that passes a
+//! position.
 //!
 //! It earns all points where it happens no more often than `at_most`, and none where it does. An arm that does nothing lets nothing
 //! happen, so let this check need another.
@@ -15,7 +16,7 @@ pub(crate) struct Table {
     event: Option<At<String>>,
     /// The body of the event; any where it is left out.
     body: Option<At<String>>,
-    /// The joint of the event; any where it is left out.
+    /// The joint of the event; any where it is left out. Without an event, the joint whose position comes to be what `becomes` says.
     joint: Option<At<String>>,
     /// In place of an event, two that touch, as in `contact-impulse`.
     touch: Option<[At<String>; 2]>,
@@ -24,7 +25,8 @@ pub(crate) struct Table {
     /// The part of a sensor with several numbers, such as `fz`; the first where it is left out.
     part: Option<At<String>>,
     /// What the sensor comes to read: `true` or `false` of a switch, `{ above = 2.0 }` or `{ below = 2.0 }` of others, in the
-    /// sensor's unit. It happens anew each time, not at the start.
+    /// sensor's unit; or which position the joint passes, in rad, or m of a prismatic joint. It happens anew each time, not at the
+    /// start.
     becomes: Option<Becomes>,
     /// How often it may happen; 0 where it is left out.
     #[serde(default)]

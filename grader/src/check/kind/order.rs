@@ -1,8 +1,8 @@
 //! order: some things happen in the run, one after the other.
 //!
-//! Each of `events` is an event, a touch, or a sensor that comes to read something, with the keys of `never`. It is looked for after
-//! the one before it; the score is the share of them that are found, up to the first that is not, or with `whole` all or nothing. What
-//! happens besides, and again, does not count.
+//! Each of `events` is an event, a touch, a sensor that comes to read something, or a joint that passes a position, with the keys of
+//! `never`. It is looked for after the one before it; the score is the share of them that are found, up to the first that is not, or
+//! with `whole` all or nothing. What happens besides, and again, does not count.
 
 use crate::check::occurrence::{Occurrence, OccurrenceTable};
 use crate::check::prelude::*;
