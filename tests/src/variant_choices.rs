@@ -2,10 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use kinemark_grader::lab::Lab;
 use kinemark_grader::lab::variant::Variant;
+use kinemark_grader::lab::{Lab, Staff};
+use kinemark_grader::task::model::Given;
 use kinemark_sim::text::{Dimension, Source};
 
+use crate::graded_rubrics::motion_lab;
 use crate::own_lab::OwnLab;
 
 const LAB: &str = r#"
@@ -147,6 +149,81 @@ fn choices_that_are_none_are_refused() {
         ("row = \"RzTx\"", "row = \"RzTq\"", "`q` is no axis"),
     ] {
         match own_lab().with("lab.toml", from, to).load() {
+            Ok(_) => panic!("{to} is accepted"),
+            Err(error) => assert!(error.to_string().contains(expected), "{to}: {error}"),
+        }
+    }
+}
+
+#[test]
+fn hidden_cases_and_runs_draw_every_choice() {
+    let own = motion_lab()
+        .with(
+            "hidden.toml",
+            "count = 2\nparameters = { out = [0.45, 0.55] }",
+            "count = 20\nparameters = { out = { choices = [0.45, 0.55] } }",
+        )
+        .with(
+            "hidden.toml",
+            "count = 3\ngiven = { mass_kg = [0.2, 2.0]",
+            "count = 40\ngiven = { mass_kg = { choices = [0.25, 1, 4.0] }",
+        );
+    let lab = own.lab();
+    let staff = own.staff(&lab).expect("the course staff's part");
+    let mut seen: BTreeMap<String, u32> = BTreeMap::new();
+    for run in staff.runs("go") {
+        let out = run.lab.parameters.get("out");
+        *seen.entry(format!("{out:?}")).or_default() += 1;
+    }
+    assert_eq!(seen.values().sum::<u32>(), 20);
+    assert_eq!(seen.len(), 2, "{seen:?}");
+    for case in staff.hidden("lever") {
+        let Given::Values { given, .. } = &case.given else {
+            panic!("{case:?}");
+        };
+        *seen.entry(format!("{:?}", given[1])).or_default() += 1;
+    }
+    assert_eq!(seen.len(), 2 + 3, "{seen:?}");
+    assert!(seen.contains_key("(\"mass_kg\", Number(1.0))"), "{seen:?}");
+}
+
+#[test]
+fn hidden_choices_that_are_none_are_refused() {
+    for (from, to, expected) in [
+        (
+            "out = [0.45, 0.55]",
+            "out = { choices = [] }",
+            "`choices` has nothing to choose",
+        ),
+        (
+            "out = [0.45, 0.55]",
+            "out = { choices = [0.45, \"far\"] }",
+            "the first choice is one number, and another is a text",
+        ),
+        (
+            "out = [0.45, 0.55]",
+            "out = { choices = [\"near\", \"far\"] }",
+            "what `out` is drawn from does not fit its shape",
+        ),
+        (
+            "out = [0.45, 0.55]",
+            "out = { choice = [0.45, 0.55] }",
+            "unknown key `choice`",
+        ),
+        (
+            "out = [0.45, 0.55]",
+            "out = [\"near\", \"far\"]",
+            "of texts write { choices = [...] }",
+        ),
+        (
+            "mass_kg = [0.2, 2.0]",
+            "mass_kg = { choices = [\"light\", \"heavy\"] }",
+            "`mass_kg` is given as a text",
+        ),
+    ] {
+        let own = motion_lab().with("hidden.toml", from, to);
+        let lab = own.lab();
+        match Staff::load(&own, &lab, None) {
             Ok(_) => panic!("{to} is accepted"),
             Err(error) => assert!(error.to_string().contains(expected), "{to}: {error}"),
         }

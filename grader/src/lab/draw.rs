@@ -53,15 +53,8 @@ pub(super) enum Drawn {
 
 /// The next numbers and lists of numbers, by name.
 fn drawn(stream: &mut KeyedStream, ranges: &[(String, Ranges)]) -> Vec<(String, Dimension)> {
-    let drawn = ranges.iter().map(|(name, ranges)| {
-        let value = match ranges {
-            Ranges::One(range) => Dimension::Number(stream.between(*range)),
-            Ranges::Each(ranges) => {
-                Dimension::List(ranges.iter().map(|range| stream.between(*range)).collect())
-            }
-        };
-        (name.clone(), value)
-    });
+    let drawn = ranges.iter();
+    let drawn = drawn.map(|(name, ranges)| (name.clone(), ranges.drawn(stream)));
     drawn.collect()
 }
 
@@ -75,12 +68,7 @@ pub(super) fn parameters(
 ) -> Vec<(String, Dimension)> {
     let mut stream = KeyedStream::new(HIDDEN_RUNS, &[salt, task, class], &number.to_le_bytes());
     let drawn = ranges.iter().map(|(name, ranges)| {
-        let value = match ranges.get_ref() {
-            Ranges::One(range) => Dimension::Number(stream.between(*range)),
-            Ranges::Each(ranges) => {
-                Dimension::List(ranges.iter().map(|range| stream.between(*range)).collect())
-            }
-        };
+        let value = ranges.get_ref().drawn(&mut stream);
         (name.get_ref().clone(), value)
     });
     drawn.collect()

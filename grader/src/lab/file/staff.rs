@@ -3,10 +3,15 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use kinemark_sim::random::KeyedStream;
 use kinemark_sim::text::schema::either;
-use kinemark_sim::text::{FileFormat, Spanned};
+use kinemark_sim::text::{Dimension, FileFormat, Spanned};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Error as _, MapAccess, SeqAccess, Visitor};
+
+use super::ChoicesTable;
 
 /// `hidden.toml` in the staff's folder.
 #[derive(Debug, Deserialize, JsonSchema)]
@@ -48,38 +53,53 @@ pub(in crate::lab) struct DrawTable {
     pub(in crate::lab) position_m: Option<Spanned<[[f64; 2]; 3]>>,
     /// How many branches reach the positions; 2 where it is left out with `q_rad`, needed with `position_m`.
     pub(in crate::lab) branches: Option<u32>,
-    /// Dimensions of the robot: `[low, high]`, or a list of such ranges for a list.
+    /// Dimensions of the robot: `[low, high]`, a list of such ranges for a list, or `{ choices = [...] }`.
     #[serde(default)]
     pub(in crate::lab) dimensions: RangesTable,
-    /// For a function of the lab's own: `[low, high]` for every name that the visible cases give, or a list of such ranges for a list.
+    /// For a function of the lab's own: `[low, high]` for every name that the visible cases give, a list of such ranges for a list, or
+    /// `{ choices = [...] }`.
     pub(in crate::lab) given: Option<RangesTable>,
 }
 
 /// Names with ranges, the places of both kept.
 pub(in crate::lab) type RangesTable = BTreeMap<Spanned<String>, Spanned<Ranges>>;
 
-/// A range for a number, or one for each number of a list.
+/// What a hidden number is drawn from: a range for a number, one for each number of a list, or choices.
 #[derive(Debug, Clone, PartialEq)]
 pub(in crate::lab) enum Ranges {
     One([f64; 2]),
     Each(Vec<[f64; 2]>),
+    /// Values of one shape, at least one.
+    Choices(Vec<Dimension>),
 }
 
 impl Ranges {
-    /// All of them.
+    /// All of them; choices have none.
     pub(in crate::lab) fn all(&self) -> &[[f64; 2]] {
         match self {
             Self::One(range) => std::slice::from_ref(range),
             Self::Each(ranges) => ranges,
+            Self::Choices(_) => &[],
         }
     }
 
-    /// The low ends (0) or the high ones (1).
-    pub(in crate::lab) fn end(&self, end: usize) -> kinemark_sim::text::Dimension {
-        use kinemark_sim::text::Dimension;
+    /// The low ends (0) or the high ones (1); the first or the last choice.
+    pub(in crate::lab) fn end(&self, end: usize) -> Dimension {
         match self {
             Self::One(range) => Dimension::Number(range[end]),
             Self::Each(ranges) => Dimension::List(ranges.iter().map(|r| r[end]).collect()),
+            Self::Choices(choices) => choices[end * (choices.len() - 1)].clone(),
+        }
+    }
+
+    /// The next value of `stream`: uniform in each range, and each choice as likely.
+    pub(in crate::lab) fn drawn(&self, stream: &mut KeyedStream) -> Dimension {
+        match self {
+            Self::One(range) => Dimension::Number(stream.between(*range)),
+            Self::Each(ranges) => {
+                Dimension::List(ranges.iter().map(|range| stream.between(*range)).collect())
+            }
+            Self::Choices(choices) => choices[stream.below(choices.len() as u64) as usize].clone(),
         }
     }
 }
@@ -90,24 +110,23 @@ impl JsonSchema for Ranges {
     }
 
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
-        let each = <Vec<[f64; 2]>>::json_schema(generator);
-        either(<[f64; 2]>::json_schema(generator), each)
+        let ranges = either(
+            <[f64; 2]>::json_schema(generator),
+            <Vec<[f64; 2]>>::json_schema(generator),
+        );
+        either(ranges, ChoicesTable::json_schema(generator))
     }
 }
 
 impl<'de> Deserialize<'de> for Ranges {
     fn deserialize<D: serde::Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        struct OneOrEach;
-        impl<'de> serde::de::Visitor<'de> for OneOrEach {
+        struct RangesOrChoices;
+        impl<'de> Visitor<'de> for RangesOrChoices {
             type Value = Ranges;
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-                f.write_str("[low, high], or a list of them")
+                f.write_str("[low, high], a list of them, or { choices = [...] }")
             }
-            fn visit_seq<A: serde::de::SeqAccess<'de>>(
-                self,
-                mut seq: A,
-            ) -> Result<Ranges, A::Error> {
-                use kinemark_sim::text::Dimension;
+            fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> Result<Ranges, A::Error> {
                 let mut numbers = Vec::new();
                 let mut pairs = Vec::new();
                 while let Some(item) = seq.next_element::<Dimension>()? {
@@ -115,25 +134,36 @@ impl<'de> Deserialize<'de> for Ranges {
                         Dimension::Number(number) => numbers.push(number),
                         Dimension::List(list) => match <[f64; 2]>::try_from(list) {
                             Ok(pair) => pairs.push(pair),
-                            Err(_) => {
-                                return Err(serde::de::Error::custom("a range is [low, high]"));
-                            }
+                            Err(_) => return Err(A::Error::custom("a range is [low, high]")),
                         },
                         Dimension::Text(_) => {
-                            return Err(serde::de::Error::custom("a range is of numbers"));
+                            return Err(A::Error::custom(
+                                "a range is of numbers; of texts write { choices = [...] }",
+                            ));
                         }
                     }
                 }
                 match (<[f64; 2]>::try_from(numbers), pairs.is_empty()) {
                     (Ok(pair), true) => Ok(Ranges::One(pair)),
                     (Err(numbers), false) if numbers.is_empty() => Ok(Ranges::Each(pairs)),
-                    _ => Err(serde::de::Error::custom(
-                        "expected [low, high], or a list of them",
-                    )),
+                    _ => Err(A::Error::custom("expected [low, high], or a list of them")),
+                }
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Ranges, A::Error> {
+                let table = ChoicesTable::deserialize(MapAccessDeserializer::new(map))?;
+                let Some(first) = table.choices.first() else {
+                    return Err(A::Error::custom("`choices` has nothing to choose"));
+                };
+                let shape = first.to_string();
+                match table.choices.iter().find(|one| one.to_string() != shape) {
+                    Some(other) => Err(A::Error::custom(format!(
+                        "the first choice is {shape}, and another is {other}"
+                    ))),
+                    None => Ok(Ranges::Choices(table.choices)),
                 }
             }
         }
-        deserializer.deserialize_seq(OneOrEach)
+        deserializer.deserialize_any(RangesOrChoices)
     }
 }
 

@@ -109,6 +109,8 @@ problems! {
             "staff::draw", "`{function}` is given no velocities", "this draw", "take `qd_rad_s` and `qdd_rad_s2` out";
         OtherNames { drawn: String, given: String }:
             "staff::draw", "this draw gives {drawn}, the visible cases give {given}", "this draw", "give the same names";
+        Text { name: String }:
+            "staff::draw", "`{name}` is given as a text", "these choices", "functions are given numbers and lists of numbers";
         UnknownDimension { name: String, known: Vec<String> }:
             "staff::draw", "no dimension `{name}` in this robot", "not a dimension of this robot", near(name, "dimensions", known);
         Dimensions { error: String }:
@@ -299,6 +301,12 @@ impl<'a> DrawReader<'a> {
         let ranges: Vec<(String, Ranges)> = ranges
             .map(|(name, ranges)| (name.get_ref().clone(), ranges.get_ref().clone()))
             .collect();
+        let mut given = self.table.given.iter().flatten();
+        let is_text = |ranges: &Ranges| matches!(ranges.end(0), Dimension::Text(_));
+        if let Some((name, at)) = given.find(|(_, ranges)| is_text(ranges.get_ref())) {
+            let name = name.get_ref().clone();
+            return self.report.refuse_at(at, DrawProblem::Text { name });
+        }
         let drawn: Vec<&str> = ranges.iter().map(|(name, _)| name.as_str()).collect();
         let of_cases: Vec<&str> = match task.cases.first().map(|case| &case.given) {
             Some(Given::Values { given, .. }) => {

@@ -25,8 +25,8 @@ problems! {
         UnknownParameter { lab: String, name: String, known: Vec<String> }:
             "staff::runs", "lab `{lab}` has no parameter `{name}`", "not a parameter of this lab", near(name, "parameters", known);
         Shape { name: String }:
-            "staff::runs", "the ranges of `{name}` do not fit its shape", "another shape",
-            "give [low, high] for one number, and a list of such ranges for a list";
+            "staff::runs", "what `{name}` is drawn from does not fit its shape", "another shape",
+            "give [low, high] for one number, a list of such ranges for a list, or { choices = [...] } for anything";
     }
 }
 
@@ -117,6 +117,9 @@ fn fitting_ranges<'t>(
         let fits = match (lab.parameters.get(name.get_ref()), ranges.get_ref()) {
             (Some(Dimension::Number(_)), Ranges::One(_)) => true,
             (Some(Dimension::List(base)), Ranges::Each(each)) => base.len() == each.len(),
+            (Some(base), Ranges::Choices(choices)) => choices
+                .iter()
+                .all(|one| one.to_string() == base.to_string()),
             (Some(_), _) => false,
             (None, _) => {
                 let problem = RunsProblem::UnknownParameter {
