@@ -3,6 +3,7 @@
 use kinemark_grader::audit::Accepted;
 
 use crate::bad_rubrics::{BRIEF, own_lab, problems, rows};
+use crate::graded_rubrics::motion_lab;
 
 #[test]
 fn words_of_the_brief_are_held_to_what_is_graded() {
@@ -191,6 +192,33 @@ fn a_brief_without_its_functions_is_doubted_once_each() {
             "gravity"
         ]
     );
+}
+
+#[test]
+fn a_brief_without_what_a_function_is_given_and_answers_is_doubted() {
+    let own = motion_lab()
+        .with("lab.toml", "expected = 1.0", "expected = { moment = 1.0 }")
+        .with(
+            "solution.rhai",
+            "given.mass_kg * given.arm_m",
+            "#{ moment: given.mass_kg * given.arm_m }",
+        );
+    let brief = "Write `control(observation)` for `goal_rad` and `unheard`, and `lever(given)`.";
+    let of_brief = |brief: &str| -> Vec<String> {
+        let found = problems(&rows(&own, brief, &Accepted::default()));
+        let found = found.into_iter().filter(|(rule, _)| rule == "brief");
+        found.map(|(_, problem)| problem).collect()
+    };
+    assert_eq!(
+        of_brief(brief),
+        [
+            "arm_m: the brief does not mention `arm_m`, which `given` holds in task \"Lever\"",
+            "mass_kg: the brief does not mention `mass_kg`, which `given` holds in task \"Lever\"",
+            "moment: the brief does not mention `moment`, an entry of the answer in task \"Lever\"",
+        ]
+    );
+    let whole = format!("{brief} `given.mass_kg`, `given.arm_m`: answer with `moment`.");
+    assert_eq!(of_brief(&whole), [""; 0]);
 }
 
 /// The limit of a check that is a student's number by chance.

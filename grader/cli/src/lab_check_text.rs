@@ -13,10 +13,23 @@ pub(crate) fn text(audit: &Audit) -> String {
         audit.lab.bold(),
         points(audit.max_points)
     );
-    for (i, row) in audit.rows.iter().enumerate() {
-        let is_same = |known: &&Row| known.tried == row.tried && known.problem == row.problem;
-        let is_known = row.problem.is_some() && audit.rows[..i].iter().any(|known| is_same(&known));
-        push(&mut out, row, is_known);
+    let rows = &audit.rows;
+    let is_known = |i: usize| {
+        let is_same =
+            |known: &Row| known.tried == rows[i].tried && known.problem == rows[i].problem;
+        rows[i].problem.is_some() && rows[..i].iter().any(is_same)
+    };
+    for (i, row) in rows.iter().enumerate() {
+        push(&mut out, row, is_known(i));
+        // of problems that are mended together it is said once, after the last, what to do
+        let goes_on = rows.get(i + 1).is_some_and(|next| {
+            let is_mended_together = (row.tried, &row.name, &row.task, &row.help)
+                == (next.tried, &next.name, &next.task, &next.help);
+            is_mended_together && !is_known(i + 1)
+        });
+        if let Some(help) = row.help.as_ref().filter(|_| !is_known(i) && !goes_on) {
+            let _ = writeln!(out, "    {} {help}", "next:".cyan());
+        }
     }
     push_bands(&mut out, audit);
     push_difficulty(&mut out, audit);
@@ -207,8 +220,5 @@ fn push(out: &mut String, row: &Row, is_known: bool) {
     }
     if let Some(problem) = &row.problem {
         let _ = writeln!(out, "    {problem}");
-    }
-    if let Some(help) = &row.help {
-        let _ = writeln!(out, "    {} {help}", "next:".cyan());
     }
 }

@@ -42,25 +42,83 @@ impl Draws {
 }
 
 /// A problem for each that is distinct, in the order in which they are found first, with where it shows; `words` says that of one with
-/// its first place and the count.
-pub(super) fn distinct(lost: Vec<Lost>, words: impl Fn(&Lost, usize) -> String) -> Vec<Problem> {
-    let mut groups: Vec<(Lost, Vec<String>)> = Vec::new();
+/// its first place and the count. Checks that lose points in `known` rows, too, are one problem for each task: the numbers of those rows
+/// say what is wrong.
+pub(super) fn distinct(
+    lost: Vec<Lost>,
+    known: &[Row],
+    words: impl Fn(&Lost, usize) -> String,
+) -> Vec<Problem> {
+    let mut groups: Vec<Group> = Vec::new();
     for lost in lost {
-        let is_same = |group: &&mut (Lost, Vec<String>)| group.0.problem.key == lost.problem.key;
+        let is_known = lost.problem.check.is_some()
+            && known.iter().any(|row| {
+                row.tried == Tried::Reference
+                    && (&row.task, &row.check) == (&lost.problem.task, &lost.problem.check)
+            });
+        let is_same = |group: &&mut Group| match is_known {
+            true => group.is_known && group.first.problem.task == lost.problem.task,
+            false => !group.is_known && group.first.problem.key == lost.problem.key,
+        };
         match groups.iter_mut().find(is_same) {
-            Some((_, places)) => places.push(lost.of),
-            None => {
-                let places = vec![lost.of.clone()];
-                groups.push((lost, places));
-            }
+            Some(group) => group.join(lost),
+            None => groups.push(Group {
+                places: vec![lost.of.clone()],
+                checks: lost.problem.check.clone().into_iter().collect(),
+                first: lost,
+                is_known,
+            }),
         }
     }
-    let problems = groups.into_iter().map(|(first, places)| Problem {
-        what: words(&first, places.len()),
-        shows_in: places,
-        ..first.problem
-    });
-    problems.collect()
+    groups
+        .into_iter()
+        .map(|group| group.problem(&words))
+        .collect()
+}
+
+/// Losses that are said together.
+struct Group {
+    first: Lost,
+    /// The draws or students, each once.
+    places: Vec<String>,
+    /// The checks, each once.
+    checks: Vec<String>,
+    /// Whether rows before have said what is lost.
+    is_known: bool,
+}
+
+impl Group {
+    fn join(&mut self, lost: Lost) {
+        if lost.of == self.first.of {
+            self.first.problem.hidden.extend(lost.problem.hidden);
+        }
+        if !self.places.contains(&lost.of) {
+            self.places.push(lost.of);
+        }
+        let check = lost.problem.check.into_iter();
+        let is_new = |check: &String| !self.checks.contains(check);
+        let check: Vec<String> = check.filter(is_new).collect();
+        self.checks.extend(check);
+    }
+
+    fn problem(self, words: impl Fn(&Lost, usize) -> String) -> Problem {
+        let mut first = self.first;
+        if self.is_known {
+            let task = first.problem.task.as_deref().unwrap_or_default();
+            let checks: Vec<String> = self.checks.iter().map(|name| format!("`{name}`")).collect();
+            first.problem.what = format!(
+                "task `{task}` loses points as above, in {}",
+                checks.join(", ")
+            );
+            // of several checks none is the one
+            first.problem.check = first.problem.check.filter(|_| self.checks.len() == 1);
+        }
+        Problem {
+            what: words(&first, self.places.len()),
+            shows_in: self.places,
+            ..first.problem
+        }
+    }
 }
 
 impl Audit {
@@ -70,7 +128,7 @@ impl Audit {
             return;
         }
         let count = tried.count;
-        let problems = distinct(tried.lost, |first, places| {
+        let problems = distinct(tried.lost, &self.rows, |first, places| {
             let (of, what) = (&first.of, &first.problem.what);
             format!("in {places} of {count}, first in {of}: {what}")
         });
@@ -99,11 +157,57 @@ mod tests {
             lost("draw 4", "ik/reach", "off by 9 mm"),
             lost("draw 7", "fk/position", "off by 4 mm"),
         ];
-        let found = distinct(all, |first, places| {
+        let found = distinct(all, &[], |first, places| {
             format!("{places}, {}: {}", first.of, first.problem.what)
         });
         let words: Vec<&str> = found.iter().map(|problem| &problem.what[..]).collect();
         assert_eq!(words, ["2, draw 3: off by 2 mm", "1, draw 4: off by 9 mm"]);
         assert_eq!(found[0].shows_in, ["draw 3", "draw 7"]);
+    }
+
+    #[test]
+    fn what_rows_before_have_said_is_said_together() {
+        let lost = |of: &str, check: &str| Lost {
+            of: of.to_owned(),
+            numbers: String::new(),
+            problem: Problem {
+                key: format!("knock/{check}"),
+                task: Some("knock".to_owned()),
+                check: Some(check.to_owned()),
+                ..Problem::from((format!("{check} lost, with numbers"), "mend it"))
+            },
+        };
+        let known = |check: &str| {
+            let problem = lost("", check).problem;
+            Row::new(
+                (Tried::Reference, "own hidden cases"),
+                None,
+                None,
+                Some(problem),
+            )
+        };
+        let all = vec![
+            lost("draw 1", "shelf"),
+            lost("draw 1", "touch"),
+            lost("draw 1", "speed"),
+            lost("draw 2", "shelf"),
+            lost("draw 2", "touch"),
+        ];
+        let found = distinct(all, &[known("shelf"), known("speed")], |first, places| {
+            format!("{places}, {}: {}", first.of, first.problem.what)
+        });
+        let words: Vec<&str> = found.iter().map(|problem| &problem.what[..]).collect();
+        assert_eq!(
+            words,
+            [
+                "2, draw 1: task `knock` loses points as above, in `shelf`, `speed`",
+                "2, draw 1: touch lost, with numbers"
+            ]
+        );
+        assert_eq!(found[0].shows_in, ["draw 1", "draw 2"]);
+        assert_eq!(
+            (&found[0].check, found[1].check.as_deref()),
+            (&None, Some("touch"))
+        );
     }
 }

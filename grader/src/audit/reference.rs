@@ -70,6 +70,7 @@ fn reference_problems(lab: &Lab, staff: &Staff, task: &TaskGrade) -> Vec<Problem
             help: mending(task),
             key: format!("{name}/{}", check.name),
             task: Some(name.clone()),
+            check: Some(check.name.clone()),
             shows_in: Vec::new(),
             hidden,
         }
@@ -143,6 +144,7 @@ pub(super) fn stop_problem(
             stopped.and_then(|stopped| stopped.line)
         ),
         task: Some(task.name.clone()),
+        check: None,
         shows_in: Vec::new(),
         hidden,
     }

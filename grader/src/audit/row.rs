@@ -48,6 +48,9 @@ pub struct Row {
     pub name: String,
     /// The task, if the row is about one.
     pub task: Option<String>,
+    /// The check that loses points, if that is the problem.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub check: Option<String>,
     /// Points earned, if something was graded.
     pub points: Option<f64>,
     /// Maximum points.
@@ -75,6 +78,8 @@ pub(super) struct Problem {
     pub(super) key: String,
     /// The task.
     pub(super) task: Option<String>,
+    /// The check that loses points.
+    pub(super) check: Option<String>,
     /// The draws or students in which it shows.
     pub(super) shows_in: Vec<String>,
     /// The hidden cases and runs in which it shows.
@@ -105,6 +110,7 @@ impl Row {
             tried,
             name: name.to_owned(),
             task: task.map(str::to_owned).or(problem.task),
+            check: problem.check,
             points: earned.map(|earned| earned.0),
             max_points: earned.map(|earned| earned.1),
             problem: is_wrong.then_some(problem.what),

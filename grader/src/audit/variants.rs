@@ -230,7 +230,7 @@ impl Variants {
 
     /// What was lost, each distinct problem once, in `words` of the first and of how many there are.
     pub(super) fn problems(&self, words: impl Fn(&Lost, usize) -> String) -> Vec<Problem> {
-        distinct(self.lost.clone(), words)
+        distinct(self.lost.clone(), &[], words)
     }
 
     /// Adds the results of other students, who come after these.
@@ -248,7 +248,7 @@ impl Audit {
     /// Records the results of the variants.
     pub fn variants(&mut self, tried: Variants) {
         let count = tried.students.len();
-        let mut problems = distinct(tried.lost, |first, places| {
+        let mut problems = distinct(tried.lost, &self.rows, |first, places| {
             let (of, what) = (&first.of, &first.problem.what);
             let numbers = match first.problem.key == NOT_LOADED {
                 true => String::new(),

@@ -10,7 +10,8 @@ use super::{Doubt, RULES};
 use crate::audit::mutate::covers;
 use crate::lab::Lab;
 use crate::lab::load::tables;
-use crate::task::files::{Files, read_source};
+use crate::lab::staff::own;
+use crate::task::files::Files;
 use crate::task::problem::{LoadError, near, problems};
 use crate::task::reporter::Reporter;
 
@@ -86,7 +87,7 @@ impl Accepted {
     /// [`LoadError`] for a file that cannot be read, an unknown rule, and an entry without a reason.
     pub fn load(files: &dyn Files, lab: &Lab) -> Result<Self, LoadError> {
         let path = format!("{}/accepted.toml", lab.name);
-        let Some(source) = read_source(files, &path)? else {
+        let Some(source) = own(files, &path)? else {
             return Ok(Self::default());
         };
         let table: FileTable = tables(&source)?;

@@ -18,7 +18,7 @@ const SHARE_OF_REACH: f64 = 0.25;
 /// The same of an angle \[rad\]: an eighth of a turn.
 const WIDE_RAD: f64 = std::f64::consts::FRAC_PI_4;
 /// A task may use at least so many times the operations of the reference solution.
-const LEAST_BUDGET: u64 = 2;
+const LEAST_BUDGET: u64 = 3;
 /// Points of the workspace.
 const SAMPLES: usize = 2000;
 

@@ -1,9 +1,11 @@
-//! What is graded and the brief does not mention: functions to write, what a task lends, what it gives, sensors.
+//! What is graded and the brief does not mention: functions to write, what they are given and answer, what a task lends, what it gives,
+//! sensors.
 
 use kinemark_sim::control::{Gains, Mode};
 
 use super::{Doubt, Rubric};
 use crate::lab::TaskWork;
+use crate::task::model::{Case, Given};
 use crate::task::value::Value;
 
 /// Names that students need and cannot read anywhere.
@@ -30,6 +32,11 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             TaskWork::Function(function, _) => {
                 let what = format!("the function that task \"{title}\" calls");
                 needs(function.name(), &what, doubts);
+                let given = format!("which `given` holds in task \"{title}\"");
+                let answered = format!("an entry of the answer in task \"{title}\"");
+                for (name, is_given) in entries(&function.cases) {
+                    needs(name, if is_given { &given } else { &answered }, doubts);
+                }
                 &function.grants
             }
             TaskWork::Motion(motion, _) => {
@@ -56,6 +63,20 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
             needs(grant.name(), &what, doubts);
         }
     }
+}
+
+/// The names of what functions of the lab's own are given (`true`) and answer.
+fn entries(cases: &[Case]) -> impl Iterator<Item = (&str, bool)> {
+    cases.iter().flat_map(|case| {
+        let (given, expected) = match &case.given {
+            Given::Values { given, expected } => (&given[..], &expected[..]),
+            _ => (&[][..], &[][..]),
+        };
+        let given = given.iter().map(|(name, _)| (&name[..], true));
+        // an answer of a single number has no name
+        let expected = expected.iter().filter(|(name, _)| !name.is_empty());
+        given.chain(expected.map(|(name, _)| (&name[..], false)))
+    })
 }
 
 /// A gain of a servo, by its key, with the unit by which a brief speaks of it without the key.

@@ -11,9 +11,61 @@ pub(super) fn rule(rubric: &Rubric<'_>, doubts: &mut Vec<Doubt>) {
     let Some(table) = typed::table(rubric.lab) else {
         return;
     };
-    of_sides(&table, doubts);
+    of_checks(&table, doubts);
     of_entries(&table, doubts);
-    of_ends(&table, doubts);
+}
+
+/// A check as it is written, with the words that students read.
+struct Titled<'a> {
+    /// `TASK/CHECK`
+    of: String,
+    title: &'a str,
+    kind: &'a str,
+    keys: &'a Table,
+    /// How long the task's run is \[s\]; without an end where it has none.
+    run_s: f64,
+}
+
+impl Titled<'_> {
+    /// The first of `words` that the title has.
+    fn first_of(&self, words: &'static [&'static str]) -> Option<&'static str> {
+        words
+            .iter()
+            .find(|words| has_word(self.title, words))
+            .copied()
+    }
+
+    fn text(&self, key: &str) -> Option<&str> {
+        self.keys.get(key)?.as_str()
+    }
+}
+
+/// Each title against the keys of its own check.
+fn of_checks(table: &Table, doubts: &mut Vec<Doubt>) {
+    const QUESTIONS: [fn(&Titled<'_>) -> Option<Doubt>; 5] =
+        [of_touch, of_side, of_whole_run, of_opposites, of_end];
+    for task in typed::tables(table, "tasks") {
+        let run_s = task
+            .get("motion")
+            .and_then(|motion| typed::number(motion.get("duration_s")?))
+            .unwrap_or(f64::INFINITY);
+        for check in typed::tables(task, "checks") {
+            let Some((kind, keys)) = typed::kind(check) else {
+                continue;
+            };
+            let check = Titled {
+                of: format!("{}/{}", typed::name(task), typed::name(check)),
+                title: check
+                    .get("title")
+                    .and_then(Toml::as_str)
+                    .unwrap_or_default(),
+                kind,
+                keys,
+                run_s,
+            };
+            doubts.extend(QUESTIONS.iter().filter_map(|question| question(&check)));
+        }
+    }
 }
 
 /// Words that exclude each other.
@@ -36,69 +88,63 @@ const WHOLE: [&str; 5] = [
     "throughout",
 ];
 
-/// A check whose title says the opposite of one of its keys, such as `side = "near"`.
-fn of_sides(table: &Table, doubts: &mut Vec<Doubt>) {
-    for task in typed::tables(table, "tasks") {
-        for check in typed::tables(task, "checks") {
-            let title = check
-                .get("title")
-                .and_then(Toml::as_str)
-                .unwrap_or_default();
-            let Some((kind, keys)) = typed::kind(check) else {
-                continue;
-            };
-            let is_of_touch = TOUCHES.iter().any(|word| has_word(title, word));
-            if is_of_touch && keys.get("at").and_then(Toml::as_str) == Some("run") {
-                doubts.push(doubt(
-                    format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!(
-                        "\"{title}\" is about a touch, and at = \"run\" looks at the whole run"
-                    ),
-                    "write at = \"touch\", or another title",
-                ));
-            }
-            let is_of_side = ["side", "near edge", "far edge"]
-                .iter()
-                .any(|words| has_word(title, words));
-            if kind == "body-falls" && is_of_side && !keys.contains_key("side") {
-                doubts.push(doubt(
-                    format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!(
-                        "\"{title}\" is about a side, and without `side` all sides are as good"
-                    ),
-                    "write side = \"near\" or \"far\", or another title",
-                ));
-            }
-            let is_of_all = WHOLE.iter().any(|words| has_word(title, words));
-            let run_s = task
-                .get("motion")
-                .and_then(|motion| typed::number(motion.get("duration_s")?));
-            let part = ["last_s", "hold_s"].into_iter().find_map(|key| {
-                let part_s = typed::number(keys.get(key)?)?;
-                (2.0 * part_s < run_s.unwrap_or(f64::INFINITY)).then_some((key, part_s))
-            });
-            if let (true, Some((key, part_s))) = (is_of_all, part) {
-                doubts.push(doubt(
-                    format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!("\"{title}\" is about the whole run, and `{key}` = {part_s} looks at its last part"),
-                    "choose a kind of check that looks at the whole run, such as joint-tracking, or another title",
-                ));
-            }
-            let said = keys.iter().find_map(|(key, value)| {
-                let value = value.as_str()?;
-                let pair = OPPOSITES.iter().find(|pair| pair.contains(&value))?;
-                let other = pair.iter().find(|word| **word != value)?;
-                (has_word(title, other) && !has_word(title, value)).then_some((key, value, other))
-            });
-            if let Some((key, value, other)) = said {
-                doubts.push(doubt(
-                    format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!("\"{title}\" says {other}, and {key} = \"{value}\""),
-                    "say the same in the title and in the key",
-                ));
-            }
-        }
-    }
+/// A title about a touch with a check that looks at the whole run.
+fn of_touch(check: &Titled<'_>) -> Option<Doubt> {
+    let title = check.title;
+    check.first_of(&TOUCHES)?;
+    (check.text("at") == Some("run")).then(|| {
+        doubt(
+            check.of.clone(),
+            format!("\"{title}\" is about a touch, and at = \"run\" looks at the whole run"),
+            "write at = \"touch\", or another title",
+        )
+    })
+}
+
+/// A title about a side with a check for which all sides are as good.
+fn of_side(check: &Titled<'_>) -> Option<Doubt> {
+    let title = check.title;
+    check.first_of(&["side", "near edge", "far edge"])?;
+    (check.kind == "body-falls" && !check.keys.contains_key("side")).then(|| {
+        doubt(
+            check.of.clone(),
+            format!("\"{title}\" is about a side, and without `side` all sides are as good"),
+            "write side = \"near\" or \"far\", or another title",
+        )
+    })
+}
+
+/// A title about the whole run with a check of less than half of it.
+fn of_whole_run(check: &Titled<'_>) -> Option<Doubt> {
+    let title = check.title;
+    check.first_of(&WHOLE)?;
+    let (key, part_s) = ["last_s", "hold_s"].into_iter().find_map(|key| {
+        let part_s = typed::number(check.keys.get(key)?)?;
+        (2.0 * part_s < check.run_s).then_some((key, part_s))
+    })?;
+    Some(doubt(
+        check.of.clone(),
+        format!(
+            "\"{title}\" is about the whole run, and `{key}` = {part_s} looks at its last part"
+        ),
+        "choose a kind of check that looks at the whole run, such as joint-tracking, or another title",
+    ))
+}
+
+/// A title that says the opposite of a key, such as `side = "near"`.
+fn of_opposites(check: &Titled<'_>) -> Option<Doubt> {
+    let title = check.title;
+    let (key, value, other) = check.keys.iter().find_map(|(key, value)| {
+        let value = value.as_str()?;
+        let pair = OPPOSITES.iter().find(|pair| pair.contains(&value))?;
+        let other = pair.iter().find(|word| **word != value)?;
+        (has_word(title, other) && !has_word(title, value)).then_some((key, value, other))
+    })?;
+    Some(doubt(
+        check.of.clone(),
+        format!("\"{title}\" says {other}, and {key} = \"{value}\""),
+        "say the same in the title and in the key",
+    ))
 }
 
 /// A check that reads one entry of an answer, and is called after another.
@@ -137,45 +183,29 @@ const LESS: [&str; 2] = ["at most", "no more than"];
 const MORE: [&str; 3] = ["at least", "no less than", "not before"];
 
 /// A check that is upside down: its title asks for little, and more is better, or the reverse.
-fn of_ends(table: &Table, doubts: &mut Vec<Doubt>) {
-    for task in typed::tables(table, "tasks") {
-        for check in typed::tables(task, "checks") {
-            let title = check
-                .get("title")
-                .and_then(Toml::as_str)
-                .unwrap_or_default();
-            let Some((_, keys)) = typed::kind(check) else {
-                continue;
-            };
-            // of kinds that can be either
-            if !keys.keys().any(|key| key.starts_with("full")) {
-                continue;
-            }
-            let at_least = keys.get("at_least").and_then(Toml::as_bool) == Some(true);
-            let said = |words: &'static [&'static str]| {
-                words.iter().find(|words| has_word(title, words)).copied()
-            };
-            let is_time = keys.contains_key("full_s");
-            let less = said(&LESS).or_else(|| said(&SHORT).filter(|_| is_time));
-            let more = said(&MORE);
-            let wrong = match (less, more) {
-                (Some(less), None) if at_least => {
-                    Some((less, "with at_least = true more is better"))
-                }
-                (None, Some(more)) if !at_least && is_of_size(keys) => {
-                    Some((more, "without at_least = true less is better"))
-                }
-                _ => None,
-            };
-            if let Some((words, is)) = wrong {
-                doubts.push(doubt(
-                    format!("{}/{}", typed::name(task), typed::name(check)),
-                    format!("\"{title}\" says \"{words}\", and {is}"),
-                    "remove `at_least`, or set it, or choose another title",
-                ));
-            }
-        }
+fn of_end(check: &Titled<'_>) -> Option<Doubt> {
+    let (title, keys) = (check.title, check.keys);
+    // of kinds that can be either
+    if !keys.keys().any(|key| key.starts_with("full")) {
+        return None;
     }
+    let at_least = keys.get("at_least").and_then(Toml::as_bool) == Some(true);
+    let is_time = keys.contains_key("full_s");
+    let less = check
+        .first_of(&LESS)
+        .or_else(|| check.first_of(&SHORT).filter(|_| is_time));
+    let (words, is) = match (less, check.first_of(&MORE)) {
+        (Some(less), None) if at_least => (less, "with at_least = true more is better"),
+        (None, Some(more)) if !at_least && is_of_size(keys) => {
+            (more, "without at_least = true less is better")
+        }
+        _ => return None,
+    };
+    Some(doubt(
+        check.of.clone(),
+        format!("\"{title}\" says \"{words}\", and {is}"),
+        "remove `at_least`, or set it, or choose another title",
+    ))
 }
 
 /// Whether a band is of a time or a speed, of which both can be asked: errors are the better the less.
@@ -204,7 +234,7 @@ mod tests {
             ("It falls", 0),
         ] {
             let mut doubts = Vec::new();
-            of_sides(&table(title), &mut doubts);
+            of_checks(&table(title), &mut doubts);
             assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
         }
     }
@@ -220,7 +250,7 @@ mod tests {
                 "[[tasks]]\nname = \"t\"\n[[tasks.checks]]\nname = \"c\"\ntitle = \"{title}\"\nbody-falls = {{ {keys} }}\n"
             );
             let mut doubts = Vec::new();
-            of_sides(&text.parse::<Table>().expect("TOML"), &mut doubts);
+            of_checks(&text.parse::<Table>().expect("TOML"), &mut doubts);
             assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
         }
     }
@@ -249,7 +279,7 @@ mod tests {
                 "[[tasks]]\nname = \"t\"\nmotion = {{ duration_s = 2.0 }}\n[[tasks.checks]]\nname = \"c\"\ntitle = \"{title}\"\n{check}\n"
             );
             let mut doubts = Vec::new();
-            of_sides(&text.parse::<Table>().expect("TOML"), &mut doubts);
+            of_checks(&text.parse::<Table>().expect("TOML"), &mut doubts);
             assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
         }
     }
@@ -288,7 +318,7 @@ mod tests {
                 "[[tasks]]\nname = \"t\"\n[[tasks.checks]]\nname = \"c\"\ntitle = \"The can is pushed\"\ntcp-speed = {{ at = \"{at}\" }}\n"
             );
             let mut doubts = Vec::new();
-            of_sides(&text.parse::<Table>().expect("TOML"), &mut doubts);
+            of_checks(&text.parse::<Table>().expect("TOML"), &mut doubts);
             assert_eq!(doubts.len(), count, "{at}: {doubts:?}");
         }
     }
@@ -328,7 +358,7 @@ mod tests {
                 "[[tasks]]\nname = \"t\"\n[[tasks.checks]]\nname = \"c\"\ntitle = \"{title}\"\ntime-limit = {{ {keys} }}\n"
             );
             let mut doubts = Vec::new();
-            of_ends(&text.parse::<Table>().expect("TOML"), &mut doubts);
+            of_checks(&text.parse::<Table>().expect("TOML"), &mut doubts);
             assert_eq!(doubts.len(), count, "{title}: {doubts:?}");
         }
     }

@@ -399,7 +399,7 @@ fn words(
 }
 
 /// Reads a file of the staff's: its name begins with their folder, so that it can be opened from where one stands.
-fn own(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
+pub(crate) fn own(files: &dyn Files, path: &str) -> Result<Option<Source>, LoadError> {
     let source = read_source(files, path)?;
     Ok(source.map(|source| Source::new(format!("{}/{path}", files.name()), source.text())))
 }
