@@ -203,7 +203,7 @@ fn hidden_choices_that_are_none_are_refused() {
         (
             "out = [0.45, 0.55]",
             "out = { choices = [\"near\", \"far\"] }",
-            "what `out` is drawn from does not fit its shape",
+            "the ranges or choices of `out` do not fit its shape",
         ),
         (
             "out = [0.45, 0.55]",

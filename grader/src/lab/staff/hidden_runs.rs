@@ -25,7 +25,7 @@ problems! {
         UnknownParameter { lab: String, name: String, known: Vec<String> }:
             "staff::runs", "lab `{lab}` has no parameter `{name}`", "not a parameter of this lab", near(name, "parameters", known);
         Shape { name: String }:
-            "staff::runs", "what `{name}` is drawn from does not fit its shape", "another shape",
+            "staff::runs", "the ranges or choices of `{name}` do not fit its shape", "another shape",
             "give [low, high] for one number, a list of such ranges for a list, or { choices = [...] } for anything";
     }
 }
