@@ -2,6 +2,7 @@
 
 use super::Audit;
 use super::form::Form;
+use super::hidden_losses::LostDraw;
 use super::row::{Problem, Row, Tried};
 
 /// A variant, or a draw, in which the reference solution lost points.
@@ -42,8 +43,8 @@ impl Draws {
 }
 
 /// A problem for each that is distinct, in the order in which they are found first, with where it shows; `words` says that of one with
-/// its first place and the count. Checks that lose points in `known` rows, too, are one problem for each task: the numbers of those rows
-/// say what is wrong.
+/// its first place and the count. Losses that `known` rows have said, with the same number or in the same hidden classes, are one problem
+/// for each task.
 pub(super) fn distinct(
     lost: Vec<Lost>,
     known: &[Row],
@@ -51,11 +52,7 @@ pub(super) fn distinct(
 ) -> Vec<Problem> {
     let mut groups: Vec<Group> = Vec::new();
     for lost in lost {
-        let is_known = lost.problem.check.is_some()
-            && known.iter().any(|row| {
-                row.tried == Tried::Reference
-                    && (&row.task, &row.check) == (&lost.problem.task, &lost.problem.check)
-            });
+        let is_known = known.iter().any(|row| says(row, &lost.problem));
         let is_same = |group: &&mut Group| match is_known {
             true => group.is_known && group.first.problem.task == lost.problem.task,
             false => !group.is_known && group.first.problem.key == lost.problem.key,
@@ -74,6 +71,20 @@ pub(super) fn distinct(
         .into_iter()
         .map(|group| group.problem(&words))
         .collect()
+}
+
+/// Whether a row of the solution says what a problem of a check is: in the same words of what is visible, and of the same hidden classes.
+fn says(row: &Row, problem: &Problem) -> bool {
+    let visible = |text: &str| text.lines().next().map(str::to_owned);
+    let is_in_class = |lost: &LostDraw| {
+        let mut of_row = row.hidden.iter();
+        of_row.any(|known| known.draw.class == lost.draw.class)
+    };
+    problem.check.is_some()
+        && row.tried == Tried::Reference
+        && (&row.task, &row.check) == (&problem.task, &problem.check)
+        && row.problem.as_deref().and_then(visible) == visible(&problem.what)
+        && problem.hidden.iter().all(is_in_class)
 }
 
 /// Losses that are said together.
@@ -205,6 +216,13 @@ mod tests {
             ]
         );
         assert_eq!(found[0].shows_in, ["draw 1", "draw 2"]);
+        // another number of the same check is no repetition
+        let mut other = lost("draw 3", "shelf");
+        other.problem.what = "shelf lost, with another number".to_owned();
+        let other = distinct(vec![other], &[known("shelf")], |first, _| {
+            first.problem.what.clone()
+        });
+        assert_eq!(other[0].what, "shelf lost, with another number");
         assert_eq!(
             (&found[0].check, found[1].check.as_deref()),
             (&None, Some("touch"))
