@@ -236,6 +236,7 @@ pub(crate) fn check(name: &str, points: f64, max_points: f64, value: f64) -> Che
         evidence: Vec::new(),
         next_step: None,
         has_hints: false,
+        look_first_at: None,
     }
 }
 

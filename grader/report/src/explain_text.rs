@@ -5,7 +5,7 @@ use kinemark_sim::text::number::{metres, seconds, trimmed};
 use owo_colors::OwoColorize as _;
 
 use super::stop_words::{is_missing_function, stop_of_whole_file};
-use super::text::hidden_word;
+use super::text::{hidden_word, name_width};
 use super::visible::visible;
 use kinemark_grader::record::explanation::{DrawCheck, ExplainedDraw, ExplainedTask, Explanation};
 use kinemark_grader::record::grade::{CaseGrade, Evidence, Stopped, TaskGrade, TaskKind};
@@ -44,10 +44,11 @@ pub fn text(explanation: &Explanation) -> String {
         lines.push("Nothing of it could be run:".to_owned());
         push_stopped(&mut lines, stopped, "  ");
     }
+    let width = name_width(explanation.tasks.iter().map(|task| task.name.as_str()));
     for task in &explanation.tasks {
         lines.push(String::new());
         let record = grade.tasks.iter().find(|record| record.name == task.name);
-        push_task(&mut lines, task, record, whole_file.is_some());
+        push_task(&mut lines, task, width, record, whole_file.is_some());
     }
     push_hints(&mut lines, explanation);
     let lines: Vec<&str> = lines.iter().map(|line| line.trim_end()).collect();
@@ -72,6 +73,7 @@ fn push_hints(lines: &mut Vec<String>, explanation: &Explanation) {
 fn push_task(
     lines: &mut Vec<String>,
     task: &ExplainedTask,
+    width: usize,
     record: Option<&TaskGrade>,
     nothing_ran: bool,
 ) {
@@ -79,7 +81,7 @@ fn push_task(
         format!("{}/{}", points(record.points), points(record.max_points))
     });
     lines.push(format!(
-        "{:<10} {earned:>8}  {}",
+        "{:<width$} {earned:>8}  {}",
         visible(&task.name).bold(),
         visible(&task.title)
     ));

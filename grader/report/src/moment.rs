@@ -3,6 +3,7 @@
 use kinemark_sim::text::number::trimmed;
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, utf8_percent_encode};
 
+use super::stop_words::stop_of_whole_file;
 use super::visible::visible;
 use kinemark_grader::record::grade::{
     CheckGrade, Grade, Instant, Outcome, Stopped, TaskGrade, repair_first,
@@ -80,6 +81,12 @@ pub fn look_first(grade: &Grade) -> Option<FirstLoss<'_>> {
     Some(cause.unwrap_or(first))
 }
 
+/// The end of the address of a page that leads to where to look first; none where the whole file could not be run, which the page says at its top.
+pub fn place_to_look(grade: &Grade) -> Option<String> {
+    let loss = look_first(grade).filter(|_| stop_of_whole_file(grade).is_none());
+    Some(loss?.fragment())
+}
+
 /// Where a task lost its first points: what stopped it, whatever its run lost besides; else the earliest moment given for all its checks
 /// that lost some, of equal ones the costliest. Where no moment is given, the first check that lost points.
 pub fn first_loss_of(task: &TaskGrade) -> Option<FirstLoss<'_>> {
@@ -140,6 +147,7 @@ mod tests {
     use super::*;
     use kinemark_grader::record::grade::Evidence;
     use kinemark_grader::record::sample;
+    use kinemark_grader::record::verdict::Verdict;
 
     #[test]
     fn a_cause_is_looked_at_before_the_earliest_moment() {
@@ -197,6 +205,23 @@ mod tests {
         let check = checks.find(|check| has_lost(check)).expect("a lost check");
         check.next_step = Some(repair_first(&name));
         assert_eq!(lost(&grade), name);
+    }
+
+    #[test]
+    fn a_file_that_does_not_build_has_no_place_of_its_own_to_look() {
+        let mut grade = sample::graded().grade;
+        assert!(place_to_look(&grade).is_some());
+        for task in &mut grade.tasks {
+            task.verdict = Verdict::DidNotBuild;
+            task.stopped = Some(Stopped {
+                message: "a `)` is missing".to_owned(),
+                ..Stopped::default()
+            });
+        }
+        assert_eq!(place_to_look(&grade), None);
+        // in one task alone it is a function of it
+        grade.tasks[0].stopped = None;
+        assert!(place_to_look(&grade).is_some());
     }
 
     #[test]

@@ -73,9 +73,10 @@ pub fn detailed(grade: &Grade, detail: Detail) -> String {
         );
         push_stopped(&mut out, stopped, &grade.submission.name, "");
     } else {
+        let width = name_width(grade.tasks.iter().map(|task| task.name.as_str()));
         for task in &grade.tasks {
             out.push('\n');
-            push_task(&mut out, task, &grade.submission.name, detail);
+            push_task(&mut out, task, width, &grade.submission.name, detail);
         }
     }
     out.push('\n');
@@ -111,8 +112,13 @@ pub(crate) fn points_at_hand_in(grade: &Grade) -> Option<String> {
         .then(|| format!("{} more when you hand in", points(grade.points_at_hand_in)))
 }
 
-/// The lines of a task, in the order in which they are printed.
-fn push_task(out: &mut String, task: &TaskGrade, file: &str, detail: Detail) {
+/// The width of a column with the names of tasks, so that their points stand below each other.
+pub(crate) fn name_width<'a>(names: impl Iterator<Item = &'a str>) -> usize {
+    names.map(|name| name.chars().count()).fold(10, usize::max)
+}
+
+/// The lines of a task, in the order in which they are printed; its name in a column of this width.
+fn push_task(out: &mut String, task: &TaskGrade, width: usize, file: &str, detail: Detail) {
     let verdict = match task.verdict {
         Verdict::Passed => task.verdict.name().green().to_string(),
         Verdict::Missed => task.verdict.name().yellow().to_string(),
@@ -122,7 +128,7 @@ fn push_task(out: &mut String, task: &TaskGrade, file: &str, detail: Detail) {
     line(
         out,
         &format!(
-            "{:<10} {:>8}  {verdict}  {}",
+            "{:<width$} {:>8}  {verdict}  {}",
             task.name.bold(),
             earned,
             visible(&task.title)

@@ -20,6 +20,8 @@ pub struct Finding {
     pub next_step: String,
     /// Whether what was seen makes the lab's question beside the point, such as a joint that never comes to rest.
     pub insists: bool,
+    /// Whether points were lost because the TCP did not stay at a goal, which another check judges.
+    pub waits_for_goals: bool,
     /// The curve it judged.
     pub curve: Option<Curve>,
     /// What of the curve counts. Without it there is no curve, or moments beyond the band may cost nothing, as on the way to a goal:
@@ -70,6 +72,7 @@ impl Finding {
             evidence: Vec::new(),
             next_step: String::new(),
             insists: false,
+            waits_for_goals: false,
             curve: None,
             statistic: None,
         }

@@ -35,9 +35,15 @@ pub(super) fn check_grades<K: ?Sized>(
             evidence: parts.evidence,
             next_step: parts.next_step.filter(|_| has_step),
             has_hints: parts.has_hints && has_step,
+            look_first_at: look_first_at(checks, judged),
         }
     });
     grades.collect()
+}
+
+/// The name of the check that may be why this one lost points.
+fn look_first_at<K: ?Sized>(checks: &[Check<K>], judged: &JudgedCheck) -> Option<String> {
+    Some(checks[judged.look_first_at?].name.clone())
 }
 
 /// The result of a check, before it becomes a record.

@@ -14,6 +14,8 @@ pub(super) struct JudgedCheck {
     pub(super) finding: Option<Finding>,
     /// Index of a needed check that earned nothing, if that is why it was not judged.
     pub(super) unmet: Option<usize>,
+    /// Index of another check that may be why this one lost points.
+    pub(super) look_first_at: Option<usize>,
 }
 
 impl JudgedCheck {
@@ -23,6 +25,7 @@ impl JudgedCheck {
             outcome: Outcome::NotJudged,
             finding: None,
             unmet,
+            look_first_at: unmet,
         }
     }
 
@@ -53,6 +56,7 @@ impl JudgedCheck {
             outcome,
             finding: Some(finding),
             unmet: None,
+            look_first_at: None,
         }
     }
 

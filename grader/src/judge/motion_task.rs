@@ -52,6 +52,7 @@ impl Grader<'_> {
         let first_lost = first_losses(&judge, &visible.checks);
         let (diagnoses, rulings) = Diagnosed::parts(diagnosed);
         let diagnoses = self.in_words_of(task, diagnoses);
+        lead_to_goals(checks, &mut visible.checks);
         if visible.stopped.is_none() && diagnoses.is_empty() {
             let unsolved = self.unsolved_before(task, work);
             name_cause(
@@ -347,6 +348,21 @@ fn first_losses(judge: &MotionJudge<'_>, judged: &[JudgedCheck]) -> Vec<Option<I
     losses.collect()
 }
 
+/// Leads from what could not be judged, because the TCP did not stay at a goal, to the check that judges whether it does.
+fn lead_to_goals(checks: &[Check<dyn MotionCheck>], judged: &mut [JudgedCheck]) {
+    let judges_goals = |i: &usize| checks[*i].kind.dwell_band().is_some();
+    let lost = |i: &usize| judged[*i].loss().is_some();
+    let Some(goals) = (0..judged.len()).find(|i| judges_goals(i) && lost(i)) else {
+        return;
+    };
+    for check in judged.iter_mut() {
+        let loss = check.loss();
+        if loss.is_some_and(|finding| finding.waits_for_goals) {
+            check.look_first_at = Some(goals);
+        }
+    }
+}
+
 /// Says what the whole run shows at the first check that lost points, or which task to repair first, and leads there from the others. One of those that says already
 /// what its curve shows stays as it is.
 fn name_cause(
@@ -378,6 +394,7 @@ fn name_cause(
     let others = judged.iter_mut().skip(first + 1);
     for check in others.filter(|check| check.loss().is_some()) {
         if let Some(finding) = check.finding.as_mut().filter(|finding| !finding.insists) {
+            check.look_first_at = Some(first);
             finding.insists = true;
             finding.next_step =
                 format!("First look at \"{title}\": what is seen there may be why.");

@@ -374,6 +374,10 @@ pub struct CheckGrade {
     /// Whether the next step is the lab's question, to which `kinemark hint TASK/CHECK` has hints; left out if it is not.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub has_hints: bool,
+    /// The name of the check of the same task to look at first, because it may be why this one lost its points, or could not be judged; absent if
+    /// there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub look_first_at: Option<String>,
 }
 
 /// A moment of the visible run of a motion task, which the report shows.

@@ -313,6 +313,7 @@ fn check(
         evidence: Vec::new(),
         next_step: None,
         has_hints: false,
+        look_first_at: None,
     }
 }
 

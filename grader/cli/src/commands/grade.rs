@@ -329,8 +329,7 @@ fn print_what_is_next(
     output::print_lines(&beyond.unwrap_or_default())?;
     let report = output::path(&request.out.join(PAGE_FILE));
     output::print(&format!("report: {report}\n"))?;
-    if let Some(loss) = kinemark_report::moment::look_first(grade) {
-        let place = loss.fragment();
+    if let Some(place) = kinemark_report::moment::place_to_look(grade) {
         output::print(&format!("look here first: {report}{place}\n"))?;
     }
     if args.storyboard {

@@ -73,24 +73,14 @@ fn costs_of(index: usize, task: &TaskGrade) -> Vec<Cost<'_>> {
     costs.into_iter().map(|(_, cost)| cost).collect()
 }
 
-/// How a next step begins that leads to the check whose mistake may be the cause.
-const LOOK_FIRST: &str = "First look at \"";
-
 /// The check whose mistake costs check `at` its points, too: the one that it needs or leads to, else the first with the same cause, else
 /// itself.
 fn root(checks: &[CheckGrade], at: usize) -> usize {
     let mut root = at;
     // each step leads to another check; more steps than checks would be a circle
     for _ in checks {
-        let check = &checks[root];
-        let leads =
-            |step: &&String| check.outcome == Outcome::NotJudged || step.starts_with(LOOK_FIRST);
-        let needed = check.next_step.as_ref().filter(leads);
-        // the step names the check that it needs
-        let named = needed.and_then(|step| {
-            let is_named = |other: &CheckGrade| step.contains(&format!("\"{}\"", other.title));
-            (0..checks.len()).find(|i| *i != root && is_named(&checks[*i]))
-        });
+        let first = checks[root].look_first_at.as_ref();
+        let named = first.and_then(|name| checks.iter().position(|other| other.name == *name));
         match named.filter(|i| lost_points(&checks[*i]) >= LEAST) {
             Some(next) => root = next,
             None => break,
@@ -116,12 +106,18 @@ pub(super) fn costs(grade: &Grade) -> Markup {
     if costs.is_empty() || costs.len() == 1 && costs[0].with.is_empty() {
         return html! {};
     }
-    let rest: f64 = costs.iter().skip(MOST_ROWS).map(|cost| cost.lost).sum();
+    // a single one left over needs no more room than the line that counts it
+    let shown = if costs.len() == MOST_ROWS + 1 {
+        MOST_ROWS + 1
+    } else {
+        MOST_ROWS
+    };
+    let rest: f64 = costs.iter().skip(shown).map(|cost| cost.lost).sum();
     let share = |points: f64| 100.0 * points / grade.max_points.max(LEAST);
     let mut left = grade.max_points;
     let rows: Vec<_> = costs
         .iter()
-        .take(MOST_ROWS)
+        .take(shown)
         .map(|cost| {
             left -= cost.lost;
             (cost, share(left), share(cost.lost))
@@ -133,8 +129,8 @@ pub(super) fn costs(grade: &Grade) -> Markup {
             ol {
                 @for (cost, from, width) in rows { li { (row(cost, from, width)) } }
             }
-            @if costs.len() > MOST_ROWS {
-                p class="quiet" { "and " (points(rest)) " points in " (costs.len() - MOST_ROWS) " other places: see the scores" }
+            @if costs.len() > shown {
+                p class="quiet" { "and " (points(rest)) " points in " (costs.len() - shown) " other places: see the scores" }
             }
         }
     }
@@ -174,14 +170,14 @@ mod tests {
         (check.points, check.max_points) = (points, max_points);
         check.outcome = Outcome::Partial;
         check.evidence.clear();
-        check.next_step = None;
+        check.look_first_at = None;
         check
     }
 
     fn needs(title: &str, need: &str) -> CheckGrade {
         let mut check = check(title, 0.0, 4.0);
         check.outcome = Outcome::NotJudged;
-        check.next_step = Some(format!("Not judged until \"{need}\" earns points."));
+        check.look_first_at = Some(need.to_lowercase().replace(' ', "-"));
         check
     }
 
@@ -227,7 +223,7 @@ mod tests {
     #[test]
     fn what_leads_to_another_check_is_in_its_row() {
         let mut fall = check("The can falls", 0.0, 5.0);
-        fall.next_step = Some("First look at \"Near\": what is seen there may be why.".to_owned());
+        fall.look_first_at = Some("near".to_owned());
         let grade = grade(vec![check("Near", 1.0, 2.0), fall]);
         let found = costs_of(0, &grade.tasks[0]);
         assert_eq!(found.len(), 1);
@@ -275,6 +271,21 @@ mod tests {
         assert_eq!(found.len(), 1);
         assert_eq!((found[0].lost, found[0].address.as_str()), (4.0, "#task-1"));
         assert!(costs(&grade).into_string().is_empty(), "the card says it");
+    }
+
+    #[test]
+    fn rows_that_are_left_out_are_counted_and_a_single_one_is_not_left_out() {
+        let rows = |many: usize| {
+            let checks = (0..many).map(|i| check(&format!("Check {i}"), 1.0, 2.0));
+            let shown = costs(&grade(checks.collect())).into_string();
+            (
+                shown.matches("<li>").count(),
+                shown.contains("other places"),
+            )
+        };
+        assert_eq!(rows(6), (6, false));
+        assert_eq!(rows(7), (7, false));
+        assert_eq!(rows(8), (6, true));
     }
 
     #[test]

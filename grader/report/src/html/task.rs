@@ -34,7 +34,7 @@ pub(super) fn section(
     shown_cases: Option<&ShownCases>,
     has_replay: bool,
     script: Option<&ScriptLines<'_>>,
-    has_chapters: bool,
+    has_all_chapters: bool,
 ) -> Markup {
     let id = anchor(index);
     let plots = run.map_or(&[][..], |(_, plots)| plots);
@@ -56,13 +56,13 @@ pub(super) fn section(
         return section_never_run(&id, task, stop, &of);
     }
     html! {
-        section class="task" id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
+        section class={ "task" @if passed { " passed" } } id=(id) data-task=(visible(&task.name)) aria-labelledby={ (id) "-title" } {
             (title(&id, task))
             p class="lead" { (meaning(task.verdict, task.checks.iter())) }
             @if let Some(loss) = first_loss_of(task) { (first_lost(&loss, &of)) }
             @if let Some(stop) = &task.stopped { (stopped(stop, &of)) }
             @for diagnosis in &task.diagnoses { (diagnosed(diagnosis, task.kind)) }
-            @if let Some((run, _)) = run.filter(|_| has_chapters) { (chapters(index, run, task)) }
+            @if let Some((run, _)) = run.filter(|_| has_all_chapters || !passed) { (chapters(index, run, task)) }
             @if has_replay { (place(index, &task.name)) }
             // a task without a mistake is read by who wants to know more
             @if passed {

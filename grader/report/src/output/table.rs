@@ -54,7 +54,7 @@ pub const OUTPUTS: &[Output] = &[
                 script: is_text.then_some(sources.submission),
                 module_sources: sources.module_sources,
                 label: material.request.label.as_deref(),
-                chapters: material.request.storyboard,
+                all_chapters: material.request.storyboard,
                 since: material.request.since.as_ref(),
             };
             let page = html(material.graded, material.plots(), &extras);

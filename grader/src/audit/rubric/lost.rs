@@ -225,6 +225,7 @@ mod tests {
                 .collect(),
             next_step: None,
             has_hints: false,
+            look_first_at: None,
         };
         assert!(!is_lost(&graded(Outcome::Partial, &[true, true])));
         assert!(is_lost(&graded(Outcome::Partial, &[true, false])));

@@ -32,12 +32,16 @@ impl MotionTable for Table {
 #[derive(Debug)]
 pub(crate) struct FinishTime;
 
-/// The next step where a goal was never held, and so nothing after it can be judged.
-pub(super) fn first_hold(goal: usize) -> String {
+/// A finding of a run in which a goal was never held, and so nothing after it can be judged.
+pub(super) fn first_hold(finding: Finding, goal: usize) -> Finding {
     let goal = goal + 1;
-    format!(
+    let next_step = format!(
         "First see why the TCP does not come to goal {goal} and stay: before that there is nothing to judge here."
-    )
+    );
+    Finding {
+        waits_for_goals: true,
+        ..finding.advise(next_step).insisting()
+    }
 }
 
 impl RunMeasure for FinishTime {
@@ -63,7 +67,7 @@ impl RunMeasure for FinishTime {
                 goal + 1
             );
             finding = finding.with(facts.evidence(message, "tcp".to_owned(), facts.last_tick()));
-            return finding.advise(first_hold(goal)).insisting();
+            return first_hold(finding, goal);
         }
         finding.advise(band.advice(
             "Start the next move as soon as the dwell is over.",

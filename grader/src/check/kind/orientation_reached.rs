@@ -94,7 +94,7 @@ impl RunMeasure for OrientationReached {
         let measure = measure(quantity, worst_rad, "rad", [band.full, band.zero]);
         let finding = Finding::scored(score, measure).because(evidence.collect());
         if let Some(goal) = first_missed {
-            return finding.advise(first_hold(goal)).insisting();
+            return first_hold(finding, goal);
         }
         finding.advise("Which joint turns the hand without moving it? Compare its angle with what the goal asks for.")
     }

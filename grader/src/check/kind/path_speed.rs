@@ -229,7 +229,7 @@ impl PathSpeed {
 
 /// The wanted speed, and around it the errors that earn all points.
 fn backdrop(speed_m_s: f64, band: Band) -> StepBackdrop {
-    let percent = |share: f64| with_unit(100.0 * share, "%");
+    let percent = |share: f64| with_unit(share, "");
     let off_m_s = band.full * speed_m_s;
     let words = format!(
         "full points up to {} off (root mean square), none from {}",
