@@ -44,6 +44,9 @@ pub fn combine(
     each: impl Fn(f64, f64) -> f64,
     vm: &VirtualMachine,
 ) -> PyResult<View> {
+    if let Some(paired) = left.paired(right, dtype, &each) {
+        return Ok(paired);
+    }
     let (left, right) = together(left, right, vm)?;
     let shape = left.shape();
     let mut values = Vec::with_capacity(shape.size());
@@ -66,9 +69,5 @@ pub fn combine(
 /// A new array from each element.
 #[must_use]
 pub fn map(view: &View, dtype: Dtype, each: impl Fn(f64) -> f64) -> View {
-    let mut values = view.values();
-    for value in &mut values {
-        *value = each(*value);
-    }
-    View::new(dtype, view.shape(), values)
+    view.mapped(dtype, each)
 }

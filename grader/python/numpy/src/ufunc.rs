@@ -157,6 +157,15 @@ impl Binary {
         if let Some(result) = self.with_number(left, right, vm)? {
             return Ok(convert::object(result, vm));
         }
+        if let (Some(left), Some(right)) = (
+            left.downcast_ref::<NdArray>(),
+            right.downcast_ref::<NdArray>(),
+        ) {
+            return Ok(convert::object(
+                self.apply(left.view(), right.view(), vm)?,
+                vm,
+            ));
+        }
         let (Some(left), Some(right)) = (convert::operand(left, vm)?, convert::operand(right, vm)?)
         else {
             return Ok(vm.ctx.not_implemented());

@@ -150,8 +150,13 @@ impl View {
     #[must_use]
     pub fn new(dtype: Dtype, shape: Shape, values: Vec<f64>) -> Self {
         assert_eq!(values.len(), shape.size(), "values do not fill the shape");
+        Self::of_cells(dtype, shape, values.into_iter().map(Cell::new).collect())
+    }
+
+    /// New cells of which there are as many as the shape has.
+    fn of_cells(dtype: Dtype, shape: Shape, cells: Rc<[Cell<f64>]>) -> Self {
         Self {
-            cells: values.into_iter().map(Cell::new).collect(),
+            cells,
             offset: 0,
             shape,
             row_stride: shape.columns as isize,
@@ -246,6 +251,44 @@ impl View {
         (0..self.shape.rows).flat_map(move |row| {
             (0..self.shape.columns).map(move |column| self.position(row, column))
         })
+    }
+
+    /// The cells of all elements, row by row, where they lie beside each other in this order.
+    fn in_order(&self) -> Option<&[Cell<f64>]> {
+        let lie_in_order = self.column_stride == 1
+            && (self.shape.rows == 1 || self.row_stride == self.shape.columns as isize);
+        lie_in_order.then(|| &self.cells[self.offset..self.offset + self.size()])
+    }
+
+    /// A new array of what `each` makes of every element.
+    #[must_use]
+    pub fn mapped(&self, dtype: Dtype, each: impl Fn(f64) -> f64) -> Self {
+        let new = |cell: &Cell<f64>| Cell::new(each(cell.get()));
+        let cells = match self.in_order() {
+            Some(cells) => cells.iter().map(new).collect(),
+            None => self
+                .positions()
+                .map(|position| new(&self.cells[position]))
+                .collect(),
+        };
+        Self::of_cells(dtype, self.shape, cells)
+    }
+
+    /// A new array of what `each` makes of the pairs of elements of two arrays of one shape, as most are; `None` for others, and where elements do
+    /// not lie in order.
+    #[must_use]
+    pub fn paired(
+        &self,
+        other: &Self,
+        dtype: Dtype,
+        each: impl Fn(f64, f64) -> f64,
+    ) -> Option<Self> {
+        if self.shape != other.shape {
+            return None;
+        }
+        let pairs = self.in_order()?.iter().zip(other.in_order()?);
+        let cells = pairs.map(|(left, right)| Cell::new(each(left.get(), right.get())));
+        Some(Self::of_cells(dtype, self.shape, cells.collect()))
     }
 
     /// A copy of the elements, row by row.

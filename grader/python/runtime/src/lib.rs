@@ -23,6 +23,9 @@ use run::Loaded;
 static MEMORY: kinemark_python_pools::Pools<std::alloc::System> =
     unsafe { kinemark_python_pools::Pools::new(std::alloc::System) };
 
+/// Room for what a submission makes, in bytes: most take less.
+const ROOM: usize = 2 << 20;
+
 /// What stays from request to request.
 struct Runtime {
     interpreter: Interpreter,
@@ -41,6 +44,8 @@ thread_local! {
 pub extern "C" fn km_start() {
     std::panic::set_hook(Box::new(|panic| host::panicked(&panic.to_string())));
     let (interpreter, names) = start::started();
+    // What is given back here stays in the memory, so that a submission need not let it grow: that is a copy of all of it.
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(ROOM)));
     RUNTIME.with(|runtime| {
         *runtime.borrow_mut() = Some(Runtime {
             interpreter,
