@@ -156,8 +156,11 @@ export class Plot {
       window.on(() => this.stretch());
       svg.addEventListener("pointermove", (event) => this.point(event));
       svg.addEventListener("pointerdown", (event) => this.press(event));
-      svg.addEventListener("pointerup", () => this.release());
-      svg.addEventListener("dblclick", () => window.reset());
+      svg.addEventListener("pointerup", (event) => this.release(event));
+      svg.addEventListener("dblclick", (event) => {
+        window.reset();
+        this.point(event);
+      });
       svg.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
       figure.addEventListener("pointerleave", () => this.leave());
       svg.addEventListener("pointercancel", () => {
@@ -359,13 +362,14 @@ export class Plot {
     picked.style.visibility = "visible";
   }
 
-  private release(): void {
+  private release(event: PointerEvent): void {
     const { drag, picked } = this;
     picked.style.visibility = "hidden";
     if (!drag?.moved) return;
     const x = Number(picked.getAttribute("x"));
     const ends = [x, x + Number(picked.getAttribute("width"))].map((at) => this.time(drag.panel, at));
     this.window.show(ends[0], ends[1]);
+    this.point(event);
   }
 
   /** Units of the picture in ten pixels as it was drawn. */

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 
 use super::beyond::{has_full_marks, success};
 use super::head::anchor;
+use super::task_check::is_of_hidden_run;
 use super::viewer::seek;
 use super::{foreign, kept_with_units, prose};
 use crate::moment::{last_before, look_first};
@@ -44,11 +45,13 @@ pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup 
                     (prose(&stop.message))
                     @if let Some(line) = stop.line { " (line " (line) ")" }
                 }
+                @if let (Some(help), true) = (&stop.help, task.diagnoses.is_empty()) { p { (next(help)) } }
             } @else if let Some(check) = loss.check {
                 p {
                     strong { (foreign(&check.title)) } " lost " (share(check.max_points - check.points, check.max_points))
                     @if let Some(fact) = earliest_fact(check) { ": " (prose(&kept_with_units(&fact.message))) } @else { "." }
                 }
+                @if let (Some(step), true) = (&check.next_step, task.diagnoses.is_empty()) { p { (next(step)) } }
             }
             @if let Some(diagnosis) = task.diagnoses.first() { p { "It looks like this: " (prose(&diagnosis.says)) } }
             p class="go" {
@@ -59,6 +62,16 @@ pub(super) fn look(grade: &Grade, has_replay: impl Fn(usize) -> bool) -> Markup 
             }
         }
     }
+}
+
+/// What to do next.
+fn next(step: &str) -> Markup {
+    let mut letters = step.chars();
+    let step: String = match letters.next() {
+        Some(first) => first.to_uppercase().chain(letters).collect(),
+        None => String::new(),
+    };
+    html! { b { "Next: " } (prose(&kept_with_units(&step))) }
 }
 
 fn share(lost: f64, of: f64) -> String {
@@ -75,7 +88,9 @@ fn earliest_fact(check: &CheckGrade) -> Option<&Evidence> {
     let earliest = timed
         .min_by(|a, b| a.1.total_cmp(&b.1))
         .map(|(fact, _)| fact);
-    cause.or(earliest).or(check.evidence.first())
+    // where only hidden runs lost points, one of them says more than what the visible run earns
+    let hidden = check.evidence.iter().find(|fact| is_of_hidden_run(fact));
+    cause.or(earliest).or(hidden).or(check.evidence.first())
 }
 
 #[cfg(test)]

@@ -14,6 +14,8 @@ use kinemark_sim::text::number::trimmed;
 
 /// Sketches of a task, and cases of it whose numbers are written out.
 const MOST: usize = 6;
+/// An answer that is wrong and no farther off than this is wrong in something else than its place \[m\].
+const NOT_OFF_M: f64 = 1e-6;
 /// Numbers of an entry that are written out.
 const MOST_NUMBERS: usize = 64;
 
@@ -65,7 +67,8 @@ fn sketch(case: &ShownCase, places: &ShownPlaces, cases: &[CaseGrade]) -> Markup
                     @if places.is_out_of_reach() { " nothing reaches it" }
                 } @else {
                     span class="pill none" { "wrong" }
-                    @if let Some(off_m) = off_m { " " (with_unit(off_m, "m")) " off" }
+                    @if off_m.is_some_and(|off_m| off_m < NOT_OFF_M) { " the place is right, how it is turned is not" }
+                    @else if let Some(off_m) = off_m { " " (with_unit(off_m, "m")) " off" }
                     @else if places.answered.is_empty() { " no place was answered" }
                 }
             }

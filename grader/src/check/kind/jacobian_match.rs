@@ -43,9 +43,9 @@ impl AnswerMeasure for JacobianMatch {
                     wrong_columns(facts, &cases.task.function, answer, truth, cases.band.full);
                 columns
                     .into_iter()
-                    .map(|(joint, share, entry)| WrongAnswer {
+                    .map(|(joint, entry)| WrongAnswer {
                         kind: joint.to_string(),
-                        off: relative * share,
+                        off: relative,
                         message: format!(
                             "{}: {} off{entry}",
                             facts.label(),
@@ -63,8 +63,8 @@ impl AnswerMeasure for JacobianMatch {
     }
 }
 
-/// A column that is off: its joint, its share of the error of the whole matrix, and its worst entry in words.
-type WrongColumn = (usize, f64, String);
+/// A column that is off: its joint, and its worst entry in words.
+type WrongColumn = (usize, String);
 
 /// The columns that are off by more than `full`, as a fraction of the norm of `truth`; the worst one in any case.
 fn wrong_columns(
@@ -89,9 +89,9 @@ fn wrong_columns(
     let shares = (0..facts.joints.count()).map(|joint| (joint, off(joint) / all));
     shares
         .filter(|(joint, share)| *joint == worst || relative * share > full)
-        .map(|(joint, share)| {
+        .map(|(joint, _)| {
             let entry = worst_entry(facts, rows, answer, truth, joint);
-            (joint, share, entry.unwrap_or_default())
+            (joint, entry.unwrap_or_default())
         })
         .collect()
 }

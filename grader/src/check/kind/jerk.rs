@@ -38,7 +38,8 @@ impl RunMeasure for Jerk {
         let t_s = (0..jerks.len()).map(|k| facts.time_s(tick_of(k))).collect();
         let quantity = "root mean square jerk of the TCP";
         let value = Statistic::RootMeanSquare.of(&jerks);
-        let curve = curve("jerk of the TCP", "m/s³", t_s, jerks, Some(band));
+        // single moments may be far above the mean, so the band is no limit for them
+        let curve = curve("jerk of the TCP", "m/s³", t_s, jerks, None);
         Finding::of_curve(band, Statistic::RootMeanSquare, "m/s³", quantity, curve)
             .shown_at(facts, || {
                 let message = format!(

@@ -48,6 +48,10 @@ impl RunMeasure for PoseReached {
         let settles = lost
             .first()
             .is_some_and(|&goal| settled(facts, goal, band).is_some());
+        // what comes after a goal that the arm does not go to says the same again
+        let untouched = |goal: usize| never_nearer(facts, goal, band).is_some();
+        let first_untouched = lost.iter().copied().filter(|goal| untouched(*goal)).min();
+        lost.retain(|goal| first_untouched.is_none_or(|first| *goal <= first || !untouched(*goal)));
         let evidence = lost.into_iter().map(|goal| evidence(facts, goal, band));
         let worst_m = goals.map(settled_m).fold(0.0, f64::max);
         let quantity = "greatest distance from a goal while it is held";
@@ -82,8 +86,8 @@ fn window(facts: &MotionFacts<'_>, goal: usize) -> Option<[usize; 2]> {
     Some([last.saturating_sub(ticks), last])
 }
 
-/// The first and last tick of the longest stretch of the judged window in which the TCP is as near as all points ask, if it lasts a fifth
-/// of the window: a shorter one is passing by.
+/// The first and last tick of the longest stretch of the judged window in which the TCP is as near as all points ask, if it is more than a moment:
+/// a single tick is passing by.
 fn settled(facts: &MotionFacts<'_>, goal: usize, band: Band) -> Option<[usize; 2]> {
     let [first, last] = window(facts, goal)?;
     let is_near = |tick: &usize| distance_m(facts, goal, *tick) <= band.full;
@@ -96,7 +100,35 @@ fn settled(facts: &MotionFacts<'_>, goal: usize, band: Band) -> Option<[usize; 2
         }
         tick += count + 1;
     }
-    longest.filter(|[from, to]| 5 * (to - from) >= last - first)
+    longest.filter(|[from, to]| from < to || first == last)
+}
+
+/// A goal that the TCP does not go to.
+struct NeverNearer {
+    /// The tick from which on it should.
+    from: usize,
+    /// The goal that it held before, and until when, in words.
+    held: String,
+    nearest_m: f64,
+}
+
+/// Share of the way to a goal that the TCP must leave untouched for its best stay to say nothing.
+const UNTOUCHED: f64 = 0.95;
+
+/// Whether the TCP does not go to a goal: it stays where it was at the last goal that it held, or goes away.
+fn never_nearer(facts: &MotionFacts<'_>, goal: usize, band: Band) -> Option<NeverNearer> {
+    let before = facts.dwells[..goal].iter().enumerate();
+    let mut held = before.filter(|(_, dwell)| band.score(dwell.settled_m) > 0.0);
+    let (number, from) = held.next_back().map(|(i, dwell)| (i + 1, dwell.last))?;
+    let nearest_m = (from..facts.trace.len())
+        .map(|tick| distance_m(facts, goal, tick))
+        .fold(f64::INFINITY, f64::min);
+    let began_m = distance_m(facts, goal, from);
+    (nearest_m >= UNTOUCHED * began_m && nearest_m > band.zero).then(|| NeverNearer {
+        from,
+        held: format!("goal {number}, over at {}", seconds(facts.time_s(from))),
+        nearest_m,
+    })
 }
 
 /// Why the goal with this index loses points.
@@ -108,6 +140,19 @@ fn evidence(facts: &MotionFacts<'_>, index: usize, band: Band) -> Evidence {
         return facts.evidence(message, "tcp".to_owned(), facts.last_tick());
     };
     let [first, last] = window(facts, index).unwrap_or([dwell.first, dwell.last]);
+    if let Some(stays) = never_nearer(facts, index, band) {
+        let message = format!(
+            "goal {number} at {position}: after the dwell at {} the TCP comes no nearer than {}",
+            stays.held,
+            metres(stays.nearest_m),
+        );
+        return Evidence {
+            value: Some(dwell.settled_m),
+            limit: Some(band.full),
+            unit: "m".to_owned(),
+            ..facts.evidence(message, "tcp".to_owned(), stays.from)
+        };
+    }
     // the earliest of the worst moments of the window
     let worst = (first..=last).fold(first, |worst, tick| {
         let is_worse = distance_m(facts, index, tick) > distance_m(facts, index, worst);
