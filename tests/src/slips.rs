@@ -1,5 +1,5 @@
 //! Slips as classes hand them in: `tests/slips/LAB/NAME.rhai`. The head of each file has, a line each, the `task` that loses points, what
-//! is said of it (`says`), what the student is asked (`asks`), and advice that would mislead (`never`); without `check` the first check
+//! is said of it (`says`), what the student is asked (`asks`), the check to look at `first`, and advice that would mislead (`never`); without `check` the first check
 //! that lost points counts. A file with `verdict: passed` is right, and nothing is said of it. What `stopped`
 //! the task, what `helps` and at which `line` are of a submission that fails.
 
@@ -76,6 +76,9 @@ fn is_named(lab: &Lab, text: &str) {
         .map(|fact| fact.message.as_str())
         .collect();
     let said = messages.join(" | ");
+    for first in heads(text, "first") {
+        assert_eq!(check.look_first_at.as_deref(), Some(first), "{said}");
+    }
     let asked = check.next_step.as_deref().unwrap_or_default();
     for says in heads(text, "says") {
         assert!(said.contains(says), "says: {said}\nasks: {asked}");

@@ -67,7 +67,7 @@ fn sketch(case: &ShownCase, places: &ShownPlaces, cases: &[CaseGrade]) -> Markup
                     @if places.is_out_of_reach() { " nothing reaches it" }
                 } @else {
                     span class="pill none" { "wrong" }
-                    @if off_m.is_some_and(|off_m| off_m < NOT_OFF_M) { " the place is right, how it is turned is not" }
+                    @if off_m.is_some_and(|off_m| off_m < NOT_OFF_M) { " though the place is right" }
                     @else if let Some(off_m) = off_m { " " (with_unit(off_m, "m")) " off" }
                     @else if places.answered.is_empty() { " no place was answered" }
                 }

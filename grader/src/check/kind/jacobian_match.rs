@@ -87,7 +87,11 @@ fn wrong_columns(
         return Vec::new();
     };
     let shares = (0..facts.joints.count()).map(|joint| (joint, off(joint) / all));
+    let mut shares: Vec<(usize, f64)> = shares.collect();
+    // all columns of a case have its error, so that their order says which one is worst
+    shares.sort_by(|a, b| b.1.total_cmp(&a.1));
     shares
+        .into_iter()
         .filter(|(joint, share)| *joint == worst || relative * share > full)
         .map(|(joint, _)| {
             let entry = worst_entry(facts, rows, answer, truth, joint);

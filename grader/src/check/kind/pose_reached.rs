@@ -86,8 +86,8 @@ fn window(facts: &MotionFacts<'_>, goal: usize) -> Option<[usize; 2]> {
     Some([last.saturating_sub(ticks), last])
 }
 
-/// The first and last tick of the longest stretch of the judged window in which the TCP is as near as all points ask, if it is more than a moment:
-/// a single tick is passing by.
+/// The first and last tick of the longest stretch of the judged window in which the TCP is as near as all points ask, if it lasts a twentieth
+/// of the window: a shorter one is passing by.
 fn settled(facts: &MotionFacts<'_>, goal: usize, band: Band) -> Option<[usize; 2]> {
     let [first, last] = window(facts, goal)?;
     let is_near = |tick: &usize| distance_m(facts, goal, *tick) <= band.full;
@@ -100,7 +100,7 @@ fn settled(facts: &MotionFacts<'_>, goal: usize, band: Band) -> Option<[usize; 2
         }
         tick += count + 1;
     }
-    longest.filter(|[from, to]| from < to || first == last)
+    longest.filter(|[from, to]| 20 * (to - from) >= last - first)
 }
 
 /// A goal that the TCP does not go to.
@@ -117,9 +117,10 @@ const UNTOUCHED: f64 = 0.95;
 
 /// Whether the TCP does not go to a goal: it stays where it was at the last goal that it held, or goes away.
 fn never_nearer(facts: &MotionFacts<'_>, goal: usize, band: Band) -> Option<NeverNearer> {
-    let before = facts.dwells[..goal].iter().enumerate();
-    let mut held = before.filter(|(_, dwell)| band.score(dwell.settled_m) > 0.0);
-    let (number, from) = held.next_back().map(|(i, dwell)| (i + 1, dwell.last))?;
+    // a run that ended early has fewer dwells than goals
+    let before = facts.dwells.iter().take(goal).enumerate();
+    let held = before.filter(|(_, dwell)| band.score(dwell.settled_m) > 0.0);
+    let (number, from) = held.last().map(|(i, dwell)| (i + 1, dwell.last))?;
     let nearest_m = (from..facts.trace.len())
         .map(|tick| distance_m(facts, goal, tick))
         .fold(f64::INFINITY, f64::min);
