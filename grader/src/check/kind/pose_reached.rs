@@ -119,8 +119,8 @@ const UNTOUCHED: f64 = 0.95;
 fn never_nearer(facts: &MotionFacts<'_>, goal: usize, band: Band) -> Option<NeverNearer> {
     // a run that ended early has fewer dwells than goals
     let before = facts.dwells.iter().take(goal).enumerate();
-    let held = before.filter(|(_, dwell)| band.score(dwell.settled_m) > 0.0);
-    let (number, from) = held.last().map(|(i, dwell)| (i + 1, dwell.last))?;
+    let mut held = before.filter(|(_, dwell)| band.score(dwell.settled_m) > 0.0);
+    let (number, from) = held.next_back().map(|(i, dwell)| (i + 1, dwell.last))?;
     let nearest_m = (from..facts.trace.len())
         .map(|tick| distance_m(facts, goal, tick))
         .fold(f64::INFINITY, f64::min);
