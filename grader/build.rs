@@ -29,9 +29,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     for package in locked(&std::fs::read_to_string(lock)?)? {
         add(&mut hasher, &package);
     }
-    let runtime = here.join("python/runtime.wasm.zst");
-    println!("cargo::rerun-if-changed={}", runtime.display());
-    hasher.update(blake3::hash(&std::fs::read(runtime)?).as_bytes());
+    for made in ["memory.zst", "runtime.wasm.zst", "rest.wasm.zst"] {
+        let made = here.join("python").join(made);
+        println!("cargo::rerun-if-changed={}", made.display());
+        hasher.update(blake3::hash(&std::fs::read(made)?).as_bytes());
+    }
     let digest = hasher.finalize().to_hex();
     println!("cargo::rustc-env=KINEMARK_ENGINE_DIGEST={}", &digest[..16]);
     let summaries = kind_summaries(&here.join("src/check/kind"))?;

@@ -228,10 +228,10 @@ fn sources_below(folder: &std::path::Path, prefix: &str) -> Vec<String> {
             if !["target", "tests"].contains(&name.as_str()) {
                 found.extend(sources_below(&entry.path(), &format!("{path}/")));
             }
-        } else if [".rs", ".py", ".toml", ".patch"]
+        } else if [".rs", ".py", ".toml", ".patch", ".zst"]
             .iter()
             .any(|end| name.ends_with(end))
-            || ["Cargo.lock", "build", "runtime.wasm.zst"].contains(&name.as_str())
+            || ["Cargo.lock", "build"].contains(&name.as_str())
         {
             found.push(path);
         }

@@ -81,7 +81,7 @@ impl Host for WorkerHost {
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
             .take();
-        let mut worker = match kept.filter(|kept| kept.may_serve(submission)) {
+        let mut worker = match kept.filter(|kept| kept.may_serve(submission, &opening.program)) {
             Some(kept) => kept,
             None => {
                 // before the worker is started: it inherits the choice

@@ -9,6 +9,7 @@ use std::thread::JoinHandle;
 use std::time::Duration;
 
 use kinemark_grader::submission::controller::{HostLimit, Stop};
+use kinemark_grader::submission::handed_in::Program;
 use serde::Serialize;
 
 use super::seal::Sealed;
@@ -23,8 +24,9 @@ const LOOK: Duration = Duration::from_millis(50);
 /// A worker that was waited for at fewer looks has most of its time before it: 2 s.
 const FRESH_LOOKS: u32 = 40;
 /// A worker that uses less memory has most of its address space before it.
-#[cfg(target_os = "linux")]
 const SMALL_BYTES: usize = 24 << 20;
+/// The same for one that runs Python: with the interpreter, and with two instances of 16 MB as every submission begins.
+const SMALL_BYTES_WITH_PYTHON: usize = 128 << 20;
 /// Says that a worker has come to the end of its address space; the language's runtime writes it.
 const OUT_OF_MEMORY: &str = "memory allocation of";
 
@@ -123,17 +125,21 @@ impl Worker {
         })
     }
 
-    /// Whether it can serve `submission` as a new one would: it is of the same one, young, and small. One that has used much of its
-    /// time or its address space could run out of them earlier than a new one.
-    pub(super) fn may_serve(&self, submission: blake3::Hash) -> bool {
+    /// Whether it can serve `submission`, whose code is `program`, as a new one would: it is of the same one, young, and small. One that
+    /// has used much of its time or its address space could run out of them earlier than a new one.
+    pub(super) fn may_serve(&self, submission: blake3::Hash, program: &Program) -> bool {
+        let small = match program {
+            Program::Python(_) => SMALL_BYTES_WITH_PYTHON,
+            Program::Script(_) | Program::Module(_) => SMALL_BYTES,
+        };
         self.submission == submission
             && self.looks.load(Ordering::Relaxed) < FRESH_LOOKS
-            && self.is_small()
+            && self.uses_less_than(small)
     }
 
-    /// Whether its memory is far below the limit, as the system says.
+    /// Whether it uses less memory than that, as the system says.
     #[cfg(target_os = "linux")]
-    fn is_small(&self) -> bool {
+    fn uses_less_than(&self, bytes: usize) -> bool {
         let id = self
             .child
             .lock()
@@ -144,7 +150,7 @@ impl Worker {
             let mut columns = pages.split(' ');
             columns.nth(1)?.parse::<usize>().ok()
         });
-        resident.is_some_and(|pages| pages.saturating_mul(rustix::param::page_size()) < SMALL_BYTES)
+        resident.is_some_and(|pages| pages.saturating_mul(rustix::param::page_size()) < bytes)
     }
 
     /// Nobody knows on this system.
@@ -153,7 +159,7 @@ impl Worker {
         clippy::unused_self,
         reason = "the system that says it does so by the process"
     )]
-    fn is_small(&self) -> bool {
+    fn uses_less_than(&self, _bytes: usize) -> bool {
         false
     }
 
@@ -262,6 +268,8 @@ fn command() -> std::io::Result<Command> {
         .env_clear()
         // both allocators, ours and the one of C, would reserve more address space at once than a worker has
         .env("MIMALLOC_ARENA_RESERVE", "64M")
+        // committed at once, they are in pages of 2 MB, of which a worker would use 20 MB more than it fills
+        .env("MIMALLOC_ARENA_EAGER_COMMIT", "0")
         .env("MALLOC_ARENA_MAX", "1")
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())

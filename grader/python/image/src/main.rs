@@ -1,44 +1,64 @@
-//! Makes the runtime that the grader starts: runs the start of the module that the compiler wrote, and writes a module whose memory begins as
-//! it is after that, so that nobody waits for it again. `kinemark-python-image IN OUT`.
+//! Makes the runtime that the grader starts: runs the start of the module that the compiler wrote, keeps the memory after it, so that nobody
+//! waits for it again, and writes the module in two parts: what typical submissions use, and the rest.
+//! `kinemark-python-image IN FOLDER` writes `memory.zst`, `runtime.wasm.zst` and `rest.wasm.zst`.
 
 mod metering;
+mod parts;
+mod seen;
+mod split;
+mod typical;
 
 use std::error::Error;
 use std::path::Path;
 
-use wasm_encoder::{
-    CodeSection, ConstExpr, DataSection, MemorySection, MemoryType, Module, RawSection,
-};
+use parts::{CODE, DATA, MEMORIES, Parts};
+use wasm_encoder::{ConstExpr, DataSection, MemorySection, MemoryType};
 use wasmi::{Config, Engine, ExternType, Linker, Store, Val};
-use wasmparser::{Parser, Payload};
 
 /// Zero bytes between two pieces of memory that are worth a segment of their own.
 const GAP: usize = 64;
 const PAGE: usize = 65_536;
 const STACK_POINTER: &str = "__stack_pointer";
-/// The best that compresses in seconds; what unpacks it does not mind.
-const LEVEL: i32 = 19;
+/// Unpacked at every start, which takes half as long as from the highest level; and the smallest for what is seldom unpacked.
+const QUICK: i32 = 12;
+const SMALL: i32 = 19;
 
 fn main() -> Result<(), Box<dyn Error>> {
     let paths: Vec<String> = std::env::args().skip(1).collect();
-    let [from, to] = paths.as_slice() else {
-        return Err("usage: kinemark-python-image IN OUT".into());
+    let [from, folder] = paths.as_slice() else {
+        return Err("usage: kinemark-python-image IN FOLDER".into());
     };
     let module = std::fs::read(from)?;
     let module = with_metering(&module)?;
     let memory = memory_after_start(&module)?;
-    let image = with_memory(&module, &memory)?;
-    let compressed = zstd::bulk::compress(&image, LEVEL)?;
-    let beside = Path::new(to).with_extension("new");
-    std::fs::write(&beside, &compressed)?;
-    std::fs::rename(&beside, to)?;
+    let seen = seen::seen(&with_memory(&module, &memory)?)?;
+    let split = split::split(&without_memory(&module)?, &seen)?;
     println!(
-        "{} bytes from the compiler, {} with {} bytes of memory, {} compressed",
+        "{} bytes from the compiler, {} with metering",
+        std::fs::metadata(from)?.len(),
         module.len(),
-        image.len(),
-        memory.len(),
-        compressed.len()
     );
+    let (in_first, in_rest) = split.functions;
+    println!("{in_first} functions at hand, {in_rest} in the rest");
+    for (name, bytes, level) in [
+        ("memory.zst", &memory, QUICK),
+        ("runtime.wasm.zst", &split.first, QUICK),
+        ("rest.wasm.zst", &split.rest, SMALL),
+    ] {
+        if name.contains(".wasm") {
+            wasmparser::Validator::new().validate_all(bytes)?;
+        }
+        let compressed = zstd::bulk::compress(bytes, level)?;
+        let to = Path::new(folder).join(name);
+        let beside = to.with_extension("new");
+        std::fs::write(&beside, &compressed)?;
+        std::fs::rename(&beside, &to)?;
+        println!(
+            "{name}: {} bytes, {} compressed",
+            bytes.len(),
+            compressed.len()
+        );
+    }
     Ok(())
 }
 
@@ -81,34 +101,14 @@ fn memory_after_start(module: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
     Ok(memory.data(&store).to_vec())
 }
 
-/// The module with metered functions.
+/// The module with metered functions, and nothing but what it runs with.
 fn with_metering(module: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut code = CodeSection::new();
-    for body in metering::metered(module)? {
-        code.raw(&body);
-    }
-    let mut metered = Module::new();
-    for payload in Parser::new(0).parse_all(module) {
-        let payload = payload?;
-        if matches!(payload, Payload::CodeSectionStart { .. }) {
-            metered.section(&code);
-            continue;
-        }
-        if let Some((id, range)) = payload.as_section()
-            && id != 0
-        {
-            metered.section(&RawSection {
-                id,
-                data: &module[range],
-            });
-        }
-    }
-    Ok(metered.finish())
+    let code = parts::code(&metering::metered(module)?);
+    Ok(Parts::of(module)?.with(vec![(CODE, Some(code))]))
 }
 
 /// The module with this memory from the beginning.
 fn with_memory(module: &[u8], memory: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
-    let mut image = Module::new();
     let mut data = DataSection::new();
     for (at, bytes) in pieces(memory) {
         data.active(
@@ -117,49 +117,23 @@ fn with_memory(module: &[u8], memory: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> 
             bytes.iter().copied(),
         );
     }
-    let mut is_written = false;
-    for payload in Parser::new(0).parse_all(module) {
-        let payload = payload?;
-        match &payload {
-            Payload::MemorySection(memories) => {
-                let declared = memories.clone().into_iter().next().ok_or("no memory")??;
-                let mut section = MemorySection::new();
-                section.memory(MemoryType {
-                    minimum: (memory.len() / PAGE) as u64,
-                    maximum: declared.maximum,
-                    memory64: false,
-                    shared: false,
-                    page_size_log2: None,
-                });
-                image.section(&section);
-                continue;
-            }
-            Payload::DataSection(_) => {
-                image.section(&data);
-                is_written = true;
-                continue;
-            }
-            Payload::DataCountSection { .. } => {
-                return Err(
-                    "the module copies its own data: its memory is not all there is".into(),
-                );
-            }
-            Payload::StartSection { .. } => return Err("the module starts by itself".into()),
-            _ => {}
-        }
-        if let Some((id, range)) = payload.as_section()
-            && id != 0
-        {
-            image.section(&RawSection {
-                id,
-                data: &module[range],
-            });
-        }
-    }
-    if !is_written {
-        return Err("the module has no data".into());
-    }
-    Ok(image.finish())
+    let mut memories = MemorySection::new();
+    memories.memory(MemoryType {
+        minimum: (memory.len() / PAGE) as u64,
+        maximum: None,
+        memory64: false,
+        shared: false,
+        page_size_log2: None,
+    });
+    Ok(Parts::of(module)?.with(vec![
+        (MEMORIES, Some(parts::contents(&memories)?)),
+        (DATA, Some(parts::contents(&data)?)),
+    ]))
+}
+
+/// The module without a memory of its own.
+fn without_memory(module: &[u8]) -> Result<Vec<u8>, Box<dyn Error>> {
+    Ok(Parts::of(module)?.with(vec![(MEMORIES, None), (DATA, None)]))
 }
 
 /// The pieces of memory that are not zero.

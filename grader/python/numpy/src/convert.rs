@@ -97,6 +97,32 @@ impl Gathered {
         self.dtype = Some(self.dtype.map_or(dtype, |known| known.max(dtype)));
     }
 
+    /// Takes the elements of a list or tuple of floats alone, as most are, and gives their number; `None` for others.
+    fn take_floats(&mut self, object: &PyObject, vm: &VirtualMachine) -> PyResult<Option<usize>> {
+        let list = object
+            .downcast_ref::<PyList>()
+            .map(|list| list.borrow_vec());
+        let items = match (&list, object.downcast_ref::<PyTuple>()) {
+            (Some(list), _) => list,
+            (None, Some(tuple)) => tuple.as_slice(),
+            (None, None) => return Ok(None),
+        };
+        if items.is_empty() {
+            return Ok(None);
+        }
+        check_count(self.values.len() + items.len(), vm)?;
+        let before = self.values.len();
+        for item in items {
+            let Some(float) = item.downcast_ref::<PyFloat>() else {
+                self.values.truncate(before);
+                return Ok(None);
+            };
+            self.values.push(float.to_f64());
+        }
+        self.admit(Dtype::Float);
+        Ok(Some(items.len()))
+    }
+
     /// Takes the elements of `object`, and gives the shape they have.
     fn take(&mut self, object: &PyObject, depth: usize, vm: &VirtualMachine) -> PyResult<Shape> {
         if let Some((value, dtype)) = number(object, vm)? {
@@ -113,6 +139,11 @@ impl Gathered {
             self.admit(view.dtype());
             self.values.extend(view.values());
             return Ok(view.shape());
+        }
+        if depth < 2
+            && let Some(length) = self.take_floats(object, vm)?
+        {
+            return Ok(Shape::vector(length));
         }
         let Some(children) = sequence(object, vm)? else {
             return Err(not_a_number(object, vm));
@@ -276,6 +307,9 @@ pub fn shape(object: &PyObject, vm: &VirtualMachine) -> PyResult<Shape> {
 ///
 /// TypeError for what is no whole number.
 pub fn integers(object: &PyObject, vm: &VirtualMachine) -> PyResult<Vec<isize>> {
+    if object.downcast_ref::<PyInt>().is_some() {
+        return Ok(vec![integer(object, vm)?]);
+    }
     if let Some(items) = sequence(object, vm)? {
         return items.iter().map(|item| integer(item, vm)).collect();
     }

@@ -15,13 +15,13 @@ fn product(left: &View, right: &View, dtype: Dtype, vm: &VirtualMachine) -> PyRe
     let (rows, inner, columns) = (left.rows(), left.columns(), right.columns());
     let shape = Shape::matrix(rows, columns);
     shape.check_size(vm)?;
-    let (left, right) = (left.values(), right.values());
+    let (left, right) = (left.row_by_row(), right.row_by_row());
     let mut values = Vec::with_capacity(shape.size());
     for row in 0..rows {
         for column in 0..columns {
             let mut sum = 0.0;
             for place in 0..inner {
-                sum += left[row * inner + place] * right[place * columns + column];
+                sum += left[row * inner + place].get() * right[place * columns + column].get();
             }
             values.push(if dtype == Dtype::Bool {
                 dtype.cast(sum)
@@ -70,14 +70,12 @@ fn aligned(left: &View, right: &View, vm: &VirtualMachine) -> PyResult<View> {
         right.clone()
     };
     let result = product(left, &tall, dtype, vm)?;
-    let mut kept = Vec::with_capacity(2);
-    if left.rank() == 2 {
-        kept.push(left.rows());
-    }
-    if right.rank() == 2 {
-        kept.push(right.columns());
-    }
-    Ok(result.reshaped(Shape::from_dimensions(&kept, vm)?))
+    Ok(result.reshaped(match (left.rank(), right.rank()) {
+        (2, 2) => Shape::matrix(left.rows(), right.columns()),
+        (2, _) => Shape::vector(left.rows()),
+        (_, 2) => Shape::vector(right.columns()),
+        _ => Shape::NUMBER,
+    }))
 }
 
 /// The operator `@` as Python calls it.

@@ -3,7 +3,7 @@
 use crate::dtype::Dtype;
 use crate::errors;
 use rustpython_vm::{PyResult, VirtualMachine};
-use std::{cell::Cell, rc::Rc};
+use std::{borrow::Cow, cell::Cell, rc::Rc};
 
 /// The largest number of elements an array may have: enough for the labs, far from filling the memory of a submission.
 pub const MAX_ELEMENTS: usize = 1_000_000;
@@ -258,6 +258,15 @@ impl View {
         let lie_in_order = self.column_stride == 1
             && (self.shape.rows == 1 || self.row_stride == self.shape.columns as isize);
         lie_in_order.then(|| &self.cells[self.offset..self.offset + self.size()])
+    }
+
+    /// The elements row by row, copied only where they do not lie in this order.
+    #[must_use]
+    pub fn row_by_row(&self) -> Cow<'_, [Cell<f64>]> {
+        match self.in_order() {
+            Some(cells) => Cow::Borrowed(cells),
+            None => Cow::Owned(self.values().into_iter().map(Cell::new).collect()),
+        }
     }
 
     /// A new array of what `each` makes of every element.

@@ -11,6 +11,15 @@ thread_local! {
 unsafe extern "C" {
     #[link_name = "log"]
     fn host_log(at: *const u8, bytes: u32, line: u32);
+    #[link_name = "rest"]
+    fn host_rest();
+}
+
+/// Keeps the import that brings the rest of the module, which only the functions that `image/src/split.rs` writes call.
+#[unsafe(no_mangle)]
+pub extern "C" fn km_rest() {
+    // SAFETY: the host reads nothing
+    unsafe { host_rest() }
 }
 
 #[link(wasm_import_module = "kinemark")]

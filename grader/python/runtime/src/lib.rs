@@ -23,12 +23,8 @@ use run::Loaded;
 static MEMORY: kinemark_python_pools::Pools<std::alloc::System> =
     unsafe { kinemark_python_pools::Pools::new(std::alloc::System) };
 
-/// Pages that the memory has at the start. The grader's interpreter copies all of it into one twice as large where it grows, up to the 64 MB
-/// that a submission may have: so most need none, and the last copy is of half of that.
-#[cfg(target_arch = "wasm32")]
-const FIRST_PAGES: usize = (16 << 20) / PAGE;
-#[cfg(target_arch = "wasm32")]
-const PAGE: usize = 64 << 10;
+/// Bytes that are free after the start: what most calls take, so that the memory of a case does not grow beyond that with which it begins.
+const ROOM: usize = 1 << 20;
 
 /// What stays from request to request.
 struct Runtime {
@@ -48,7 +44,8 @@ thread_local! {
 pub extern "C" fn km_start() {
     std::panic::set_hook(Box::new(|panic| host::panicked(&panic.to_string())));
     let (interpreter, names) = start::started();
-    make_room();
+    // the allocator keeps what it has taken
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(ROOM)));
     RUNTIME.with(|runtime| {
         *runtime.borrow_mut() = Some(Runtime {
             interpreter,
@@ -56,18 +53,6 @@ pub extern "C" fn km_start() {
             loaded: None,
         });
     });
-}
-
-/// Lets the memory grow to [`FIRST_PAGES`], and gives the allocator what is new.
-fn make_room() {
-    #[cfg(target_arch = "wasm32")]
-    {
-        let missing = FIRST_PAGES.saturating_sub(core::arch::wasm32::memory_size(0));
-        // the allocator takes whole pages, and some bytes of them for itself
-        let bytes = missing.saturating_sub(1) * PAGE;
-        drop(std::hint::black_box(Vec::<u8>::with_capacity(bytes)));
-        assert!(core::arch::wasm32::memory_size(0) <= FIRST_PAGES);
-    }
 }
 
 /// Room for a request of so many bytes.

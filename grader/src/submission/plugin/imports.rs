@@ -73,6 +73,8 @@ const OUTPUT: [&str; 3] = ["log", "plot", "fail"];
 pub(in crate::submission) struct State {
     pub(in crate::submission) limits: StoreLimits,
     pub(in crate::submission) memory: Option<Memory>,
+    /// Whether the rest of the runtime of Python is there; plugins have none.
+    pub(in crate::submission) has_rest: bool,
     pub(in crate::submission) output: Rc<RefCell<Output>>,
     pub(in crate::submission) model: Option<Rc<Model>>,
     pub(in crate::submission) grants: Vec<Grant>,

@@ -66,7 +66,7 @@ impl PythonController {
         };
         let output = Rc::new(RefCell::new(Output::new(&budgets)));
         let state = state(&output, model.as_ref(), &grants, &budgets);
-        let loaded = Instance::new(state).map_err(Stop::GraderFault)?;
+        let loaded = Instance::started(state).map_err(Stop::GraderFault)?;
         let mut controller = Self {
             file: opening.file.clone(),
             source: source.clone(),
@@ -150,10 +150,10 @@ impl PythonController {
         };
         let mut case = match self.case.take() {
             Some(case) => case,
-            None => Instance::new(state())?,
+            None => Instance::empty(state())?,
         };
         if !case.become_like(&self.loaded)? {
-            case = Instance::new(state())?;
+            case = Instance::empty(state())?;
             case.become_like(&self.loaded)?;
         }
         case.refuel(allowed);
@@ -426,6 +426,7 @@ fn state(
     State {
         limits: wasmi::StoreLimits::default(),
         memory: None,
+        has_rest: false,
         output: Rc::clone(output),
         model: model.cloned(),
         grants: grants.to_vec(),

@@ -1,9 +1,10 @@
 //! One instance of the runtime: its memory, its requests, and where it was when it was stopped.
 
 use kinemark_python_wire::{Call, Load, Reply, Stopped, from_bytes, to_bytes};
-use wasmi::{Caller, Error, Linker, Memory, Store, StoreLimitsBuilder, TypedFunc};
+use wasmi::{Caller, Error, Linker, Memory, MemoryType, Store, StoreLimitsBuilder, TypedFunc};
 
-use super::runtime::runtime;
+use super::region::Region;
+use super::runtime::{begin, pages, runtime};
 use crate::submission::plugin::{State, linker, text};
 
 /// Bytes of memory that a submission may have, with the interpreter's own.
@@ -24,6 +25,30 @@ fn logged(mut caller: Caller<'_, State>, at: u32, bytes: u32, line: u32) -> Resu
     Ok(())
 }
 
+/// Sees to it that the rest of the module is there. The submission pays nothing for it, whether it is the first that needs it or not.
+fn rest(mut caller: Caller<'_, State>) -> Result<(), Error> {
+    if caller.data().has_rest {
+        return Ok(());
+    }
+    let fuel = caller.get_fuel()?;
+    let runtime = runtime().map_err(Error::new)?;
+    let rest = runtime.rest().map_err(Error::new)?;
+    let mut linker: Linker<State> = Linker::new(&runtime.engine);
+    for import in rest.imports() {
+        let given = caller
+            .get_export(import.name())
+            .ok_or_else(|| Error::new(format!("{} is not exported", import.name())))?;
+        linker
+            .define(import.module(), import.name(), given)
+            .map_err(|error| Error::new(error.to_string()))?;
+    }
+    caller.set_fuel(u64::MAX)?;
+    linker.instantiate_and_start(&mut caller, rest)?;
+    caller.set_fuel(fuel)?;
+    caller.data_mut().has_rest = true;
+    Ok(())
+}
+
 /// An instance.
 pub(super) struct Instance {
     store: Store<State>,
@@ -34,6 +59,8 @@ pub(super) struct Instance {
     reply: TypedFunc<(), u32>,
     stopped: TypedFunc<(), u32>,
     stack_pointer: wasmi::Global,
+    /// The bytes of the memory; behind the store, which is dropped before them.
+    _region: Region,
 }
 
 /// Why a request has no reply.
@@ -52,15 +79,28 @@ impl From<Error> for Trouble {
 
 impl Instance {
     /// A fresh instance, whose interpreter is started.
-    pub(super) fn new(mut state: State) -> Result<Self, String> {
+    pub(super) fn started(state: State) -> Result<Self, String> {
+        let mut instance = Self::empty(state)?;
+        begin(instance.memory.data_mut(&mut instance.store))?;
+        Ok(instance)
+    }
+
+    /// An instance whose memory is to become that of another, or that after the start.
+    #[expect(
+        unsafe_code,
+        reason = "the interpreter asks for bytes that last for ever"
+    )]
+    pub(super) fn empty(mut state: State) -> Result<Self, String> {
         let runtime = runtime()?;
         let wrong = |error: Error| format!("the runtime of Python: {error}");
+        let mut region = Region::new().map_err(|error| format!("memory for Python: {error}"))?;
         state.limits = StoreLimitsBuilder::new()
             .memory_size(MEMORY_BYTES)
             .table_elements(TABLE_ELEMENTS)
-            .instances(1)
-            .memories(1)
-            .tables(1)
+            // the rest of the module is an instance too, and memory and table that it imports count again
+            .instances(2)
+            .memories(3)
+            .tables(2)
             .trap_on_grow_failure(true)
             .build();
         let mut store = Store::new(&runtime.engine, state);
@@ -70,14 +110,20 @@ impl Instance {
         let mut linker: Linker<State> = linker(&runtime.engine).map_err(wrong)?;
         linker
             .func_wrap(OWN, "log", logged)
+            .and_then(|linker| linker.func_wrap(OWN, "rest", rest))
+            .map_err(|error| format!("the runtime of Python: {error}"))?;
+        // SAFETY: it is lent to the store, which does not outlive the region
+        let bytes = unsafe { region.lend() };
+        // without a bound of its own: where it may not grow, the limits end the call
+        let of = MemoryType::new(pages()?, None);
+        let memory = Memory::new_static(&mut store, of, bytes).map_err(wrong)?;
+        linker
+            .define(OWN, "memory", memory)
             .map_err(|error| format!("the runtime of Python: {error}"))?;
         let instance = linker
             .instantiate_and_start(&mut store, &runtime.module)
             .map_err(wrong)?;
-        let (Some(memory), Some(stack_pointer)) = (
-            instance.get_memory(&store, "memory"),
-            instance.get_global(&store, "__stack_pointer"),
-        ) else {
+        let Some(stack_pointer) = instance.get_global(&store, "__stack_pointer") else {
             return Err("the runtime of Python lacks an export".to_owned());
         };
         store.data_mut().memory = Some(memory);
@@ -92,6 +138,7 @@ impl Instance {
             store,
             memory,
             stack_pointer,
+            _region: region,
         })
     }
 
@@ -167,5 +214,81 @@ impl Instance {
         memory
             .get(at..at + bytes as usize)
             .ok_or_else(|| Trouble::Fault("a reply outside of the memory".to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+    use std::rc::Rc;
+
+    use kinemark_python_wire::{Robot, Value};
+
+    use super::*;
+    use crate::submission::controller::Budgets;
+    use crate::submission::output::Output;
+
+    const FUEL: u64 = 1_000_000_000;
+
+    /// Whether the rest was there after the file was loaded and after a function was called, and what both cost.
+    fn run(source: &str) -> (bool, bool, u64) {
+        let budgets = Budgets::default();
+        let state = State {
+            limits: wasmi::StoreLimits::default(),
+            memory: None,
+            has_rest: false,
+            output: Rc::new(RefCell::new(Output::new(&budgets))),
+            model: None,
+            grants: Vec::new(),
+            text_size: budgets.text_size,
+        };
+        let mut instance = Instance::started(state).expect("started");
+        instance.refuel(FUEL);
+        let load = Load {
+            file: "submission.py".to_owned(),
+            source: source.to_owned(),
+            robot: Robot {
+                fields: Vec::new(),
+                granted: Vec::new(),
+            },
+            task: "move".to_owned(),
+            target: Value::Nothing,
+            sensors: Vec::new(),
+            most_values: 10,
+            text_size: 100,
+        };
+        let loaded = instance.load(&load);
+        assert!(matches!(loaded, Ok(Reply::Loaded(_))), "loaded");
+        let before = instance.store.data().has_rest;
+        let call = Call::Function {
+            name: "f".to_owned(),
+            robot: None,
+            arguments: Vec::new(),
+        };
+        let Ok(Reply::Returned(Value::Number(five))) = instance.call(&call) else {
+            panic!("no number");
+        };
+        assert!((five - 5.0).abs() < 1e-12);
+        (
+            before,
+            instance.store.data().has_rest,
+            FUEL - instance.fuel(),
+        )
+    }
+
+    /// Complex numbers are seldom used.
+    #[test]
+    fn the_rest_comes_when_something_in_it_is_called_and_costs_nothing() {
+        let seldom = "def f():\n    return abs(complex(3, 4))\n";
+        let (before, after, first) = run(seldom);
+        assert!(!before && after);
+        assert_eq!(
+            run(seldom),
+            (before, after, first),
+            "the second has it sooner"
+        );
+        let often = "import math\n\n\ndef f():\n    return math.hypot(3, 4)\n";
+        let (before, after, _) = run(often);
+        assert!(!before && !after);
     }
 }

@@ -8,6 +8,7 @@ mod controller;
 mod convert;
 mod hints;
 mod instance;
+mod region;
 mod runtime;
 #[cfg(test)]
 mod tests;

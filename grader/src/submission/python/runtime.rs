@@ -1,21 +1,26 @@
-//! The module that runs Python, made ready once a process: it is kept compressed, with the memory that it has after its start, so that a
-//! start is a copy.
+//! The module that runs Python, made ready once a process. It is kept compressed, in three parts: what most submissions use of it; the rest,
+//! which is made ready when something in it is called; and the memory after its start, with which every instance begins.
 
 use std::sync::OnceLock;
 
 use wasmi::{CompilationMode, Config, CustomFuelCosts, Engine, Module};
 
-/// The module as `grader/python/build` makes it.
-static COMPRESSED: &[u8] = include_bytes!("../../../python/runtime.wasm.zst");
+/// What `grader/python/build` makes.
+static FIRST: &[u8] = include_bytes!("../../../python/runtime.wasm.zst");
+static REST: &[u8] = include_bytes!("../../../python/rest.wasm.zst");
+static MEMORY: &[u8] = include_bytes!("../../../python/memory.zst");
 
 /// Calls of the module inside each other, and bytes of their values: a Python function that calls itself takes a dozen.
 const MOST_CALLS: usize = 20_000;
 const MOST_STACK_BYTES: usize = 32 << 20;
+/// Bytes of a page of WebAssembly's memory.
+const PAGE: usize = 64 << 10;
 
 /// The module, and the interpreter that it is made for.
 pub(super) struct Runtime {
     pub(super) engine: Engine,
     pub(super) module: Module,
+    rest: OnceLock<Result<Module, String>>,
 }
 
 /// The module, ready to start.
@@ -24,27 +29,80 @@ pub(super) struct Runtime {
 /// Why it cannot be had: the build is wrong.
 pub(super) fn runtime() -> Result<&'static Runtime, String> {
     static RUNTIME: OnceLock<Result<Runtime, String>> = OnceLock::new();
+    let made = || {
+        let engine = Engine::new(&config());
+        let module = unpacked(&engine, FIRST)?;
+        Ok(Runtime {
+            engine,
+            module,
+            rest: OnceLock::new(),
+        })
+    };
     RUNTIME.get_or_init(made).as_ref().map_err(Clone::clone)
 }
 
-fn made() -> Result<Runtime, String> {
-    let wrong = |error: &dyn std::fmt::Display| format!("the runtime of Python: {error}");
+impl Runtime {
+    /// The rest of the module: functions that most submissions do not use. It imports memory, table and globals of the module.
+    ///
+    /// # Errors
+    /// Why it cannot be had: the build is wrong.
+    pub(super) fn rest(&self) -> Result<&Module, String> {
+        let made = || unpacked(&self.engine, REST);
+        self.rest.get_or_init(made).as_ref().map_err(Clone::clone)
+    }
+}
+
+/// Pages of the memory after the start.
+///
+/// # Errors
+/// Why it cannot be had: the build is wrong.
+pub(super) fn pages() -> Result<u32, String> {
+    let pages = size(MEMORY)? / PAGE;
+    u32::try_from(pages).map_err(|error| wrong(&error))
+}
+
+/// Makes a memory that of the module after its start.
+///
+/// # Errors
+/// Why it cannot be had: the build is wrong.
+pub(super) fn begin(memory: &mut [u8]) -> Result<(), String> {
+    let size = zstd::bulk::decompress_to_buffer(MEMORY, memory);
+    match size.map_err(|error| wrong(&error))? == memory.len() {
+        true => Ok(()),
+        false => Err(wrong(&"its memory is of another size")),
+    }
+}
+
+fn bytes(compressed: &[u8]) -> Result<Vec<u8>, String> {
     // no more room than it takes: a worker has little address space
-    let size = zstd::zstd_safe::get_frame_content_size(COMPRESSED);
+    zstd::bulk::decompress(compressed, size(compressed)?).map_err(|error| wrong(&error))
+}
+
+fn size(compressed: &[u8]) -> Result<usize, String> {
+    let size = zstd::zstd_safe::get_frame_content_size(compressed);
     let size = size
         .ok()
         .flatten()
         .and_then(|size| usize::try_from(size).ok());
-    let size = size.ok_or_else(|| wrong(&"its size is not known"))?;
-    let bytes = zstd::bulk::decompress(COMPRESSED, size).map_err(|error| wrong(&error))?;
-    let engine = Engine::new(&config());
-    let module = Module::new(&engine, &bytes).map_err(|error| wrong(&error))?;
-    Ok(Runtime { engine, module })
+    size.ok_or_else(|| wrong(&"its size is not known"))
+}
+
+#[expect(unsafe_code, reason = "validating takes a tenth of a start")]
+fn unpacked(engine: &Engine, compressed: &[u8]) -> Result<Module, String> {
+    let bytes = bytes(compressed)?;
+    // SAFETY: the bytes are in this program, and valid: a test below holds them against the validator
+    unsafe { Module::new_unchecked(engine, &bytes) }.map_err(|error| wrong(&error))
+}
+
+fn wrong(error: &dyn std::fmt::Display) -> String {
+    format!("the runtime of Python: {error}")
 }
 
 /// The digest of the module: part of the engine's, since grades follow from it.
 pub fn digest() -> blake3::Hash {
-    blake3::hash(COMPRESSED)
+    let mut hasher = blake3::Hasher::new();
+    hasher.update(FIRST).update(REST).update(MEMORY);
+    hasher.finalize()
 }
 
 fn config() -> Config {
@@ -65,4 +123,18 @@ fn config() -> Config {
         .wasm_tail_call(false)
         .ignore_custom_sections(true);
     config
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_modules_are_valid() {
+        let engine = Engine::new(&config());
+        for compressed in [FIRST, REST] {
+            let bytes = bytes(compressed).expect("unpacked");
+            Module::validate(&engine, &bytes).expect("valid");
+        }
+    }
 }
