@@ -119,6 +119,7 @@ impl PluginController {
         State {
             limits: self.compiled.limits.of_instance(),
             memory: None,
+            #[cfg(feature = "python")]
             has_rest: false,
             output: Rc::clone(&self.output),
             model: self.model.clone(),

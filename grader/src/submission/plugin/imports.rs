@@ -74,6 +74,7 @@ pub(in crate::submission) struct State {
     pub(in crate::submission) limits: StoreLimits,
     pub(in crate::submission) memory: Option<Memory>,
     /// Whether the rest of the runtime of Python is there; plugins have none.
+    #[cfg(feature = "python")]
     pub(in crate::submission) has_rest: bool,
     pub(in crate::submission) output: Rc<RefCell<Output>>,
     pub(in crate::submission) model: Option<Rc<Model>>,
