@@ -182,6 +182,13 @@ fn control(what: i32, argument: usize) -> io::Result<usize> {
     call(libc::SYS_prctl, [what as usize, argument, 0, 0, 0])
 }
 
+/// The variables that a worker has: settings of its two allocators.
+const OF_ALLOCATORS: [&str; 3] = [
+    "MIMALLOC_ARENA_RESERVE",
+    "MIMALLOC_ARENA_EAGER_COMMIT",
+    "MALLOC_ARENA_MAX",
+];
+
 /// All of it, by what it is after.
 pub(crate) const ATTEMPTS: &[Attempt] = &[
     // --- files
@@ -388,9 +395,7 @@ pub(crate) const ATTEMPTS: &[Attempt] = &[
     attempt("read a variable of the environment", &[], |_| {
         // what two allocators are given is all there is
         let names = std::env::vars_os().map(|(name, _)| name.to_string_lossy().into_owned());
-        let mut others = names.filter(|name| {
-            !["MIMALLOC_ARENA_RESERVE", "MALLOC_ARENA_MAX"].contains(&name.as_str())
-        });
+        let mut others = names.filter(|name| !OF_ALLOCATORS.contains(&name.as_str()));
         others.next().ok_or_else(|| refused("there is none"))
     }),
     // --- the network
