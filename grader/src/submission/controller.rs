@@ -458,7 +458,7 @@ impl Budgets {
 
     /// Instructions for reading a file in Python, which a call does not have to pay for.
     pub fn python_instructions_to_read(&self) -> u64 {
-        // a file as large as it may be takes 3,500 million if it has nothing but small functions
+        // a file as large as it may be takes 1,400 million if it has nothing but small functions
         self.python_instructions_per_call().saturating_mul(100)
     }
 
