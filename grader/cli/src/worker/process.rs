@@ -25,7 +25,7 @@ const LOOK: Duration = Duration::from_millis(50);
 const FRESH_LOOKS: u32 = 40;
 /// A worker that uses less memory has most of its address space before it.
 const SMALL_BYTES: usize = 24 << 20;
-/// The same for one that runs Python: with the interpreter, and with two instances of 16 MB as every submission begins.
+/// The same for one that runs Python: with the interpreter, and with two instances of 11 MB as every submission begins.
 const SMALL_BYTES_WITH_PYTHON: usize = 128 << 20;
 /// Says that a worker has come to the end of its address space; the language's runtime writes it.
 const OUT_OF_MEMORY: &str = "memory allocation of";

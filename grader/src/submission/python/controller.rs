@@ -153,6 +153,8 @@ impl PythonController {
             None => Instance::empty(state())?,
         };
         if !case.become_like(&self.loaded)? {
+            // before the next one: a worker has little address space
+            drop(case);
             case = Instance::empty(state())?;
             case.become_like(&self.loaded)?;
         }
