@@ -68,6 +68,18 @@ impl OneProcessor {
         }
     }
 
+    /// The processors that stay free beside the chosen one; none where it was fixed, since others have their own work there.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn others(&self) -> Vec<usize> {
+        let (None, Some(before), Ok(here)) = (self.fixed, &self.before, sched_getaffinity(None))
+        else {
+            return Vec::new();
+        };
+        (0..CpuSet::MAX_CPU)
+            .filter(|cpu| before.is_set(*cpu) && !here.is_set(*cpu))
+            .collect()
+    }
+
     #[cfg(target_os = "linux")]
     fn give_back(&mut self) {
         if let Some(before) = self.before.take() {
@@ -80,6 +92,13 @@ impl OneProcessor {
     #[cfg(not(target_os = "linux"))]
     #[expect(clippy::unused_self, reason = "the same call on every system")]
     pub(crate) fn choose(&mut self) {}
+
+    /// No choice on this system.
+    #[cfg(not(target_os = "linux"))]
+    #[expect(clippy::unused_self, reason = "the same call on every system")]
+    pub(crate) fn others(&self) -> Vec<usize> {
+        Vec::new()
+    }
 }
 
 #[cfg(target_os = "linux")]
@@ -99,10 +118,12 @@ mod tests {
         let thread = std::thread::spawn(|| {
             let before = sched_getaffinity(None).expect("a mask");
             let mut one = OneProcessor::default();
+            assert!(one.others().is_empty(), "none is chosen");
             one.choose();
             assert_eq!(sched_getaffinity(None).expect("a mask").count(), 1);
             one.choose();
             assert_eq!(sched_getaffinity(None).expect("a mask").count(), 1);
+            assert_eq!(one.others().len() as u32 + 1, before.count());
             drop(one);
             assert_eq!(sched_getaffinity(None).expect("a mask"), before);
         });

@@ -62,7 +62,7 @@ fn shorten_cpu_time(hard: u64) {
 }
 
 /// The worker of this process that has put on its limits.
-fn sealed_worker() -> Option<Pid> {
+pub(crate) fn sealed_worker() -> Option<Pid> {
     let wanted = format!("worker\0--parent={}\0", std::process::id());
     let processes = std::fs::read_dir("/proc").ok()?.flatten();
     let mut workers = processes.filter(|process| {

@@ -22,6 +22,8 @@ mod host_limits;
 #[cfg(target_os = "linux")]
 mod lying;
 #[cfg(target_os = "linux")]
+mod python;
+#[cfg(target_os = "linux")]
 mod system_call;
 #[cfg(target_os = "linux")]
 mod worker;
@@ -63,10 +65,10 @@ fn main() -> std::process::ExitCode {
     let words: Vec<String> = std::env::args().skip(1).collect();
     match words.iter().map(String::as_str).collect::<Vec<_>>()[..] {
         // as `worker::process` starts it
-        ["worker", parent] => worker::serve_hostile(parent),
+        ["worker", parent, ref ahead @ ..] => worker::serve_hostile(parent, ahead),
         ["errand", layer, errand] => errand::run_unsealed(layer, errand),
         _ => {
-            let tests: [(&str, fn()); 7] = [
+            let tests: [(&str, fn()); 9] = [
                 (
                     "every_layer_has_attempts",
                     breaking_out::every_layer_has_attempts,
@@ -94,6 +96,14 @@ fn main() -> std::process::ExitCode {
                 (
                     "the_end_of_memory_is_a_limit_of_memory",
                     host_limits::the_end_of_memory_is_a_limit_of_memory,
+                ),
+                (
+                    "a_worker_serves_the_next_task",
+                    python::a_worker_serves_the_next_task,
+                ),
+                (
+                    "the_largest_submission_leaves_address_space",
+                    python::the_largest_submission_leaves_address_space,
                 ),
             ];
             // names choose tests, as elsewhere; options are the other harness's

@@ -25,7 +25,7 @@ use kinemark_grader::submission::rhai::STACK_BYTES;
 
 pub(crate) use host::WorkerHost;
 pub(crate) use process::probe;
-use seal::{Layer, Sealed, in_sealed_thread};
+use seal::{Beside, Layer, Sealed, in_sealed_thread};
 use wire::{Received, Reply, WireSaid, WireStop, receive_request, send};
 
 use crate::case::{At, Lie};
@@ -48,11 +48,22 @@ pub(crate) fn host(longest: Duration) -> WorkerHost {
 }
 
 /// Begins as a real worker, and is what the first submission says.
-pub(crate) fn serve_hostile(parent: &str) -> ExitCode {
+pub(crate) fn serve_hostile(parent: &str, ahead: &[&str]) -> ExitCode {
     let parent = parent
         .strip_prefix("--parent=")
         .and_then(|id| id.parse().ok());
-    let served = in_sealed_thread(parent, STACK_BYTES, move |sealed| answer(sealed, parent));
+    let processors = ahead
+        .iter()
+        .filter_map(|words| words.strip_prefix("--ahead="))
+        .flat_map(|list| list.split(','))
+        .filter_map(|number| number.parse().ok());
+    let beside = Beside {
+        processors: &processors.collect::<Vec<usize>>(),
+        work: child::make_python_ready,
+    };
+    let served = in_sealed_thread(parent, STACK_BYTES, beside, move |sealed| {
+        answer(sealed, parent)
+    });
     match served {
         Ok(None | Some(Ok(()))) => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,

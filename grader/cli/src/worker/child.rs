@@ -7,7 +7,7 @@ use kinemark_grader::submission::controller::{Controller, Said, Stop};
 use kinemark_grader::submission::host::open_here;
 use kinemark_grader::submission::rhai::STACK_BYTES;
 
-use super::seal::{Sealed, in_sealed_thread};
+use super::seal::{Beside, Sealed, in_sealed_thread};
 use super::wire::{
     Attempt, Received, Reply, WireAnswer, WireSaid, WireStop, receive_request, send,
 };
@@ -18,12 +18,19 @@ pub(crate) struct Args {
     /// The process that started it, which it must not outlive
     #[arg(long)]
     parent: Option<i32>,
+    /// Processors on which it makes Python ready while the submission comes
+    #[arg(long, value_delimiter = ',')]
+    ahead: Vec<usize>,
 }
 
 /// Serves until the input ends.
 pub(crate) fn serve(args: &Args) -> ExitCode {
     let parent = args.parent;
-    let served = in_sealed_thread(parent, STACK_BYTES, move |sealed| {
+    let beside = Beside {
+        processors: &args.ahead,
+        work: make_python_ready,
+    };
+    let served = in_sealed_thread(parent, STACK_BYTES, beside, move |sealed| {
         let mut input = BufReader::new(std::io::stdin());
         let mut output = BufWriter::new(std::io::stdout());
         answer_calls((sealed, parent), &mut input, &mut output)
@@ -34,6 +41,11 @@ pub(crate) fn serve(args: &Args) -> ExitCode {
         Ok(Some(Err(error))) if error.kind() == ErrorKind::UnexpectedEof => ExitCode::SUCCESS,
         _ => ExitCode::FAILURE,
     }
+}
+
+/// Translates what every submission in Python calls. Nothing depends on it but time.
+pub(super) fn make_python_ready() {
+    let _ = kinemark_grader::submission::python::translate_ahead();
 }
 
 /// Answers requests until there are no more.

@@ -86,7 +86,12 @@ impl Host for WorkerHost {
             None => {
                 // before the worker is started: it inherits the choice
                 self.processor.choose();
-                Worker::start(submission, self.spent(submission)).map_err(|error| {
+                let ahead = match opening.program {
+                    Program::Python(_) => self.processor.others(),
+                    Program::Script(_) | Program::Module(_) => Vec::new(),
+                };
+                let started = Worker::start(submission, self.spent(submission), &ahead);
+                started.map_err(|error| {
                     Stop::GraderFault(format!("a worker process could not be started: {error}"))
                 })?
             }

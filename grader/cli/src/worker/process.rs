@@ -72,9 +72,14 @@ pub(super) struct Worker {
 }
 
 impl Worker {
-    /// Starts one for a submission; `spent` is the time that its other workers have taken.
-    pub(super) fn start(submission: blake3::Hash, spent: Spent) -> std::io::Result<Self> {
-        let mut child = command()?.spawn()?;
+    /// Starts one for a submission; `spent` is the time that its other workers have taken. On the processors of `ahead`, if there are any, it
+    /// makes Python ready.
+    pub(super) fn start(
+        submission: blake3::Hash,
+        spent: Spent,
+        ahead: &[usize],
+    ) -> std::io::Result<Self> {
+        let mut child = command(ahead)?.spawn()?;
         let missing = || std::io::Error::other("no pipe to the worker");
         let input = BufWriter::new(child.stdin.take().ok_or_else(missing)?);
         let output = BufReader::new(child.stdout.take().ok_or_else(missing)?);
@@ -261,7 +266,7 @@ impl Drop for Worker {
 }
 
 /// The command of a worker.
-fn command() -> std::io::Result<Command> {
+fn command(ahead: &[usize]) -> std::io::Result<Command> {
     let mut command = Command::new(std::env::current_exe()?);
     command
         .arg("worker")
@@ -276,6 +281,10 @@ fn command() -> std::io::Result<Command> {
         .stderr(Stdio::piped());
     #[cfg(unix)]
     command.arg(format!("--parent={}", std::process::id()));
+    if !ahead.is_empty() {
+        let processors: Vec<String> = ahead.iter().map(usize::to_string).collect();
+        command.arg(format!("--ahead={}", processors.join(",")));
+    }
     #[cfg(windows)]
     {
         use std::os::windows::process::CommandExt as _;
@@ -384,7 +393,7 @@ pub(crate) fn probe() -> Result<Probe, String> {
         Stop::GraderFault(words) => words,
         other => format!("{other:?}"),
     };
-    let mut worker = Worker::start(blake3::hash(b""), Spent::none_of(WALL_CLOCK))
+    let mut worker = Worker::start(blake3::hash(b""), Spent::none_of(WALL_CLOCK), &[])
         .map_err(|error| format!("a worker process could not be started: {error}"))?;
     let reply = worker.exchange(&Request::Try).map_err(words)?;
     let Reply::Tried(tried) = reply else {

@@ -109,6 +109,15 @@ const CPU_GRACE_SECONDS: u64 = 5;
 #[cfg(unix)]
 const ADDRESS_SPACE_BYTES: u64 = 512 << 20;
 
+/// What the first thread does while the other one works.
+#[derive(Debug)]
+pub(crate) struct Beside<'a> {
+    /// The processors on which it does it; where there are none, it does nothing.
+    pub(crate) processors: &'a [usize],
+    /// What it does, with nothing of the submission.
+    pub(crate) work: fn(),
+}
+
 /// Seals this process, and does `work` in a thread of its own, which begins once every layer is on. Call it in the first thread, with no
 /// other beside it; `parent` is the process that this one must not outlive. `None` if that is gone: there is nothing to seal for.
 ///
@@ -117,6 +126,7 @@ const ADDRESS_SPACE_BYTES: u64 = 512 << 20;
 pub(crate) fn in_sealed_thread<T: Send + 'static>(
     parent: Option<i32>,
     stack_bytes: usize,
+    beside: Beside<'_>,
     work: impl FnOnce(Sealed) -> T + Send + 'static,
 ) -> io::Result<Option<T>> {
     let Some(mut sealed) = seal(parent) else {
@@ -133,10 +143,31 @@ pub(crate) fn in_sealed_thread<T: Send + 'static>(
             begin.recv().map(work)
         })?;
     let _ = has_started.recv();
+    let has_processors = move_to(beside.processors);
     seal_threads(&mut sealed);
     ready.send(sealed).map_err(io::Error::other)?;
+    if has_processors {
+        (beside.work)();
+    }
     let ended = thread.join().map_err(|_| io::Error::other("a panic"))?;
     ended.map(Some).map_err(io::Error::other)
+}
+
+/// Moves the first thread away from the processor that the other one shares with the grader; false if there is nowhere to go.
+#[cfg(target_os = "linux")]
+fn move_to(processors: &[usize]) -> bool {
+    use rustix::thread::{CpuSet, sched_setaffinity};
+    let mut set = CpuSet::new();
+    for processor in processors.iter().filter(|cpu| **cpu < CpuSet::MAX_CPU) {
+        set.set(*processor);
+    }
+    set.count() > 0 && sched_setaffinity(None, &set).is_ok()
+}
+
+/// This system has no such choice.
+#[cfg(not(target_os = "linux"))]
+fn move_to(_processors: &[usize]) -> bool {
+    false
 }
 
 /// Puts on every layer that does not depend on the threads of the process.

@@ -38,8 +38,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         std::fs::metadata(from)?.len(),
         module.len(),
     );
+    let bodies = Parts::of(&module)?.bodies;
     let (in_first, in_rest) = split.functions;
     println!("{in_first} functions at hand, {in_rest} in the rest");
+    let bytes = seen.soon.iter().map(|i| bodies[*i].len()).sum::<usize>();
+    println!("{} functions soon, {bytes} bytes", seen.soon.len());
     for (name, bytes, level) in [
         ("memory.zst", &memory, QUICK),
         ("runtime.wasm.zst", &split.first, QUICK),

@@ -4,6 +4,8 @@
 //! In the first module a function of the rest has the body of a link: it calls the import `kinemark_python.rest`, which sees to it that the
 //! rest is there, and then the function itself by the table. The rest imports memory, table and globals of the first, writes its functions
 //! into the table when it starts, and calls those of the first by the table too. So a call costs the same whether the rest was there or not.
+//!
+//! The last functions of the table are those that every submission calls soon, so that they can be translated before that.
 
 use std::error::Error;
 
@@ -14,9 +16,10 @@ use wasm_encoder::{
 use wasmparser::{BinaryReader, FunctionBody, Operator};
 
 use crate::parts::{
-    CODE, ELEMENTS, EXPORTS, IMPORTS, Parts, TABLES, TYPES, behind_number, code, contents,
+    CODE, ELEMENTS, EXPORTS, GLOBALS, IMPORTS, Parts, TABLES, TYPES, behind_number, code, contents,
     with_more,
 };
+use crate::seen::Seen;
 
 /// The module whose imports are the first module's exports.
 const FIRST: &str = "kinemark_python_first";
@@ -24,8 +27,10 @@ const FIRST: &str = "kinemark_python_first";
 const REST: (&str, &str) = ("kinemark_python", "rest");
 /// The memory, with what is in it after the start.
 const MEMORY: (&str, &str) = ("kinemark_python", "memory");
+/// The first module's export: from which place of the table on there are functions that are called soon.
+const SOON: &str = "km_soon";
 /// A function that is not longer stays where it is: what submissions use differs most in short ones, and all of them are small.
-const SHORT: usize = 200;
+const SHORT: usize = 300;
 
 /// The two modules.
 pub(crate) struct Split {
@@ -44,14 +49,14 @@ enum Place {
     Rest(u32),
 }
 
-/// Splits `module`, of whose functions `seen` are called by typical submissions.
-pub(crate) fn split(module: &[u8], seen: &[bool]) -> Result<Split, Box<dyn Error>> {
+/// Splits `module`, of whose functions typical submissions call those of `seen`.
+pub(crate) fn split(module: &[u8], seen: &Seen) -> Result<Split, Box<dyn Error>> {
     let parts = Parts::of(module)?;
     let first = parts.first() as usize;
     let mut places: Vec<Place> = vec![Place::First(None); first];
     let mut of_rest = Vec::new();
     for (i, range) in parts.bodies.iter().enumerate() {
-        places.push(match seen[i] || range.len() <= SHORT {
+        places.push(match seen.is_called[i] || range.len() <= SHORT {
             true => Place::First(None),
             false => {
                 of_rest.push(i);
@@ -92,8 +97,9 @@ pub(crate) fn split(module: &[u8], seen: &[bool]) -> Result<Split, Box<dyn Error
         }
         bodies.push(out);
     }
+    let soon: Vec<u32> = seen.soon.iter().map(|i| (first + i) as u32).collect();
     Ok(Split {
-        first: first_module(module, &parts, &places, (begin, next), &called)?,
+        first: first_module(module, &parts, &places, (begin, next), (&called, &soon))?,
         rest: rest_module(&parts, &of_rest, begin, &bodies)?,
         functions: (parts.bodies.len() - of_rest.len(), of_rest.len()),
     })
@@ -113,7 +119,7 @@ fn first_module(
     parts: &Parts<'_>,
     places: &[Place],
     (begin, end): (u32, u32),
-    called: &[u32],
+    (called, soon): (&[u32], &[u32]),
 ) -> Result<Vec<u8>, Box<dyn Error>> {
     let import = parts.imports.iter().position(|import| *import == REST);
     let import = import.ok_or("the module does not import what brings the rest")?;
@@ -139,8 +145,8 @@ fn first_module(
     let mut table = wasm_encoder::TableSection::new();
     table.table(wasm_encoder::TableType {
         element_type: RefType::FUNCREF,
-        minimum: u64::from(end),
-        maximum: Some(u64::from(end)),
+        minimum: u64::from(end) + soon.len() as u64,
+        maximum: Some(u64::from(end) + soon.len() as u64),
         table64: false,
         shared: false,
     });
@@ -148,13 +154,19 @@ fn first_module(
     elements.active(
         None,
         &ConstExpr::i32_const((end - called.len() as u32) as i32),
-        Elements::Functions(called.into()),
+        Elements::Functions(called.iter().chain(soon).copied().collect()),
     );
     let elements = contents(&elements)?;
     let mut exports = Vec::new();
-    let mut count = 1;
+    let mut count = 2;
     "table".encode(&mut exports);
     exports.extend([0x01, 0x00]);
+    // a constant i32
+    let mut globals = vec![0x7f, 0x00];
+    ConstExpr::i32_const(end as i32).encode(&mut globals);
+    SOON.encode(&mut exports);
+    exports.push(0x03);
+    (parts.globals.len() as u32).encode(&mut exports);
     for global in 0..parts.globals.len() as u32 {
         count += 1;
         of_global(global).as_str().encode(&mut exports);
@@ -172,6 +184,10 @@ fn first_module(
             Some(with_more(parts.section(IMPORTS)?, 1, &memory)?),
         ),
         (TABLES, Some(contents(&table)?)),
+        (
+            GLOBALS,
+            Some(with_more(parts.section(GLOBALS)?, 1, &globals)?),
+        ),
         (
             EXPORTS,
             Some(with_more(parts.section(EXPORTS)?, count, &exports)?),

@@ -4,12 +4,18 @@
 use kinemark_python_wire::{Call, Load, Reads, Robot, Value};
 
 /// The programs, each with how many of its calls end with an exception, as they are to.
-const PROGRAMS: [(&str, usize); 5] = [
+const PROGRAMS: [(&str, usize); 10] = [
     (include_str!("typical/scalars.py"), 0),
     (include_str!("typical/arrays.py"), 0),
     (include_str!("typical/objects.py"), 3),
     (include_str!("typical/operations.py"), 1),
     (include_str!("typical/names_of_numpy.py"), 1),
+    (include_str!("typical/names_of_python.py"), 0),
+    (include_str!("typical/syntax.py"), 0),
+    // without `init`
+    (include_str!("typical/trajectories.py"), 0),
+    (include_str!("typical/damped.py"), 1),
+    (include_str!("typical/waypoints.py"), 1),
 ];
 /// Files that are not loaded: one that cannot be read, and two whose statements fail.
 const NOT_LOADED: [&str; 3] = [

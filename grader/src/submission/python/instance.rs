@@ -4,7 +4,7 @@ use kinemark_python_wire::{Call, Load, Reply, Stopped, from_bytes, to_bytes};
 use wasmi::{Caller, Error, Linker, Memory, MemoryType, Store, StoreLimitsBuilder, TypedFunc};
 
 use super::region::Region;
-use super::runtime::{begin, pages, runtime};
+use super::runtime::{begin, engine, first, pages, rest};
 use crate::submission::plugin::{State, linker, text};
 
 /// Bytes of memory that a submission may have, with the interpreter's own.
@@ -15,7 +15,7 @@ const TABLE_ELEMENTS: usize = 100_000;
 const TO_SAY_WHERE: u64 = 10_000_000;
 
 /// The module name of what only the runtime imports.
-const OWN: &str = "kinemark_python";
+pub(super) const OWN: &str = "kinemark_python";
 
 /// Adds a line to the log, with the line of the file that printed it; 0 if that is not known.
 fn logged(mut caller: Caller<'_, State>, at: u32, bytes: u32, line: u32) -> Result<(), Error> {
@@ -26,14 +26,13 @@ fn logged(mut caller: Caller<'_, State>, at: u32, bytes: u32, line: u32) -> Resu
 }
 
 /// Sees to it that the rest of the module is there. The submission pays nothing for it, whether it is the first that needs it or not.
-fn rest(mut caller: Caller<'_, State>) -> Result<(), Error> {
+fn bring_rest(mut caller: Caller<'_, State>) -> Result<(), Error> {
     if caller.data().has_rest {
         return Ok(());
     }
     let fuel = caller.get_fuel()?;
-    let runtime = runtime().map_err(Error::new)?;
-    let rest = runtime.rest().map_err(Error::new)?;
-    let mut linker: Linker<State> = Linker::new(&runtime.engine);
+    let rest = rest().map_err(Error::new)?;
+    let mut linker: Linker<State> = Linker::new(engine());
     for import in rest.imports() {
         let given = caller
             .get_export(import.name())
@@ -60,7 +59,14 @@ pub(super) struct Instance {
     stopped: TypedFunc<(), u32>,
     stack_pointer: wasmi::Global,
     /// The bytes of the memory; behind the store, which is dropped before them.
-    _region: Region,
+    region: Region,
+}
+
+impl Drop for Instance {
+    fn drop(&mut self) {
+        let size = self.memory.size(&self.store);
+        self.region.is_kept = pages().is_ok_and(|pages| size == u64::from(pages));
+    }
 }
 
 /// Why a request has no reply.
@@ -80,18 +86,23 @@ impl From<Error> for Trouble {
 impl Instance {
     /// A fresh instance, whose interpreter is started.
     pub(super) fn started(state: State) -> Result<Self, String> {
-        let mut instance = Self::empty(state)?;
-        begin(instance.memory.data_mut(&mut instance.store))?;
-        Ok(instance)
+        Self::with(state, begin)
     }
 
-    /// An instance whose memory is to become that of another, or that after the start.
+    /// An instance whose memory is to become that of another.
+    pub(super) fn empty(state: State) -> Result<Self, String> {
+        Self::with(state, |_| Ok(()))
+    }
+
+    /// An instance whose memory is what `fill` makes of it.
     #[expect(
         unsafe_code,
         reason = "the interpreter asks for bytes that last for ever"
     )]
-    pub(super) fn empty(mut state: State) -> Result<Self, String> {
-        let runtime = runtime()?;
+    fn with(
+        mut state: State,
+        fill: impl FnOnce(&mut [u8]) -> Result<(), String>,
+    ) -> Result<Self, String> {
         let wrong = |error: Error| format!("the runtime of Python: {error}");
         let mut region = Region::new().map_err(|error| format!("memory for Python: {error}"))?;
         state.limits = StoreLimitsBuilder::new()
@@ -103,25 +114,27 @@ impl Instance {
             .tables(2)
             .trap_on_grow_failure(true)
             .build();
-        let mut store = Store::new(&runtime.engine, state);
+        let mut store = Store::new(engine(), state);
         store.limiter(|state| &mut state.limits);
         // filling the memory is not the submission's doing
         store.set_fuel(u64::MAX).map_err(wrong)?;
-        let mut linker: Linker<State> = linker(&runtime.engine).map_err(wrong)?;
+        let mut linker: Linker<State> = linker(engine()).map_err(wrong)?;
         linker
             .func_wrap(OWN, "log", logged)
-            .and_then(|linker| linker.func_wrap(OWN, "rest", rest))
+            .and_then(|linker| linker.func_wrap(OWN, "rest", bring_rest))
             .map_err(|error| format!("the runtime of Python: {error}"))?;
         // SAFETY: it is lent to the store, which does not outlive the region
         let bytes = unsafe { region.lend() };
         // without a bound of its own: where it may not grow, the limits end the call
         let of = MemoryType::new(pages()?, None);
         let memory = Memory::new_static(&mut store, of, bytes).map_err(wrong)?;
+        // before the module is needed, which another thread may be about to make ready
+        fill(memory.data_mut(&mut store))?;
         linker
             .define(OWN, "memory", memory)
             .map_err(|error| format!("the runtime of Python: {error}"))?;
         let instance = linker
-            .instantiate_and_start(&mut store, &runtime.module)
+            .instantiate_and_start(&mut store, first()?)
             .map_err(wrong)?;
         let Some(stack_pointer) = instance.get_global(&store, "__stack_pointer") else {
             return Err("the runtime of Python lacks an export".to_owned());
@@ -138,7 +151,7 @@ impl Instance {
             store,
             memory,
             stack_pointer,
-            _region: region,
+            region,
         })
     }
 
@@ -230,8 +243,8 @@ mod tests {
 
     const FUEL: u64 = 1_000_000_000;
 
-    /// Whether the rest was there after the file was loaded and after a function was called, and what both cost.
-    fn run(source: &str) -> (bool, bool, u64) {
+    /// An instance that has loaded `source`.
+    fn loaded(source: &str) -> Instance {
         let budgets = Budgets::default();
         let state = State {
             limits: wasmi::StoreLimits::default(),
@@ -258,7 +271,13 @@ mod tests {
             text_size: 100,
         };
         let loaded = instance.load(&load);
-        assert!(matches!(loaded, Ok(Reply::Loaded(_))), "loaded");
+        assert!(matches!(loaded, Ok(Reply::Loaded(_))), "{source}");
+        instance
+    }
+
+    /// Whether the rest was there after the file was loaded and after a function was called, and what both cost.
+    fn run(source: &str) -> (bool, bool, u64) {
+        let mut instance = loaded(source);
         let before = instance.store.data().has_rest;
         let call = Call::Function {
             name: "f".to_owned(),
@@ -274,6 +293,24 @@ mod tests {
             instance.store.data().has_rest,
             FUEL - instance.fuel(),
         )
+    }
+
+    /// What students begin with, and what they come to.
+    #[test]
+    fn the_files_of_the_labs_are_loaded_without_the_rest() {
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+        let mut count = 0;
+        for (folder, file) in [("labs", "starter.py"), ("reference", "solution.py")] {
+            for lab in std::fs::read_dir(root.join(folder)).expect("a folder") {
+                let path = lab.expect("a lab").path().join(file);
+                if let Ok(source) = std::fs::read_to_string(&path) {
+                    let has_rest = loaded(&source).store.data().has_rest;
+                    assert!(!has_rest, "{}", path.display());
+                    count += 1;
+                }
+            }
+        }
+        assert!(count >= 14, "{count}: seven labs have both");
     }
 
     /// Complex numbers are seldom used.

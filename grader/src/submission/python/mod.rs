@@ -4,6 +4,7 @@
 //! The module is Kinemark's own (`grader/python`), the file is data to it: what the file can reach is what the module has, and every
 //! instruction is counted, so that a run ends at the same line on every machine. `docs/python.md` is the reference.
 
+mod ahead;
 mod controller;
 mod convert;
 mod hints;
@@ -13,5 +14,6 @@ mod runtime;
 #[cfg(test)]
 mod tests;
 
+pub use ahead::translate_ahead;
 pub use controller::PythonController;
 pub use runtime::digest;

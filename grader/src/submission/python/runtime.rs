@@ -16,40 +16,30 @@ const MOST_STACK_BYTES: usize = 32 << 20;
 /// Bytes of a page of WebAssembly's memory.
 const PAGE: usize = 64 << 10;
 
-/// The module, and the interpreter that it is made for.
-pub(super) struct Runtime {
-    pub(super) engine: Engine,
-    pub(super) module: Module,
-    rest: OnceLock<Result<Module, String>>,
+/// The interpreter for which the modules are made.
+pub(super) fn engine() -> &'static Engine {
+    static ENGINE: OnceLock<Engine> = OnceLock::new();
+    ENGINE.get_or_init(|| Engine::new(&config()))
 }
 
-/// The module, ready to start.
+/// The first part of the module, ready to start.
 ///
 /// # Errors
 /// Why it cannot be had: the build is wrong.
-pub(super) fn runtime() -> Result<&'static Runtime, String> {
-    static RUNTIME: OnceLock<Result<Runtime, String>> = OnceLock::new();
-    let made = || {
-        let engine = Engine::new(&config());
-        let module = unpacked(&engine, FIRST)?;
-        Ok(Runtime {
-            engine,
-            module,
-            rest: OnceLock::new(),
-        })
-    };
-    RUNTIME.get_or_init(made).as_ref().map_err(Clone::clone)
+pub(super) fn first() -> Result<&'static Module, String> {
+    static MODULE: OnceLock<Result<Module, String>> = OnceLock::new();
+    let made = MODULE.get_or_init(|| unpacked(FIRST));
+    made.as_ref().map_err(Clone::clone)
 }
 
-impl Runtime {
-    /// The rest of the module: functions that most submissions do not use. It imports memory, table and globals of the module.
-    ///
-    /// # Errors
-    /// Why it cannot be had: the build is wrong.
-    pub(super) fn rest(&self) -> Result<&Module, String> {
-        let made = || unpacked(&self.engine, REST);
-        self.rest.get_or_init(made).as_ref().map_err(Clone::clone)
-    }
+/// The rest of the module: functions that most submissions do not use. It imports memory, table and globals of the first part.
+///
+/// # Errors
+/// Why it cannot be had: the build is wrong.
+pub(super) fn rest() -> Result<&'static Module, String> {
+    static MODULE: OnceLock<Result<Module, String>> = OnceLock::new();
+    let made = MODULE.get_or_init(|| unpacked(REST));
+    made.as_ref().map_err(Clone::clone)
 }
 
 /// Pages of the memory after the start.
@@ -88,10 +78,10 @@ fn size(compressed: &[u8]) -> Result<usize, String> {
 }
 
 #[expect(unsafe_code, reason = "validating takes a tenth of a start")]
-fn unpacked(engine: &Engine, compressed: &[u8]) -> Result<Module, String> {
+fn unpacked(compressed: &[u8]) -> Result<Module, String> {
     let bytes = bytes(compressed)?;
     // SAFETY: the bytes are in this program, and valid: a test below holds them against the validator
-    unsafe { Module::new_unchecked(engine, &bytes) }.map_err(|error| wrong(&error))
+    unsafe { Module::new_unchecked(engine(), &bytes) }.map_err(|error| wrong(&error))
 }
 
 fn wrong(error: &dyn std::fmt::Display) -> String {
@@ -131,10 +121,9 @@ mod tests {
 
     #[test]
     fn both_modules_are_valid() {
-        let engine = Engine::new(&config());
         for compressed in [FIRST, REST] {
             let bytes = bytes(compressed).expect("unpacked");
-            Module::validate(&engine, &bytes).expect("valid");
+            Module::validate(engine(), &bytes).expect("valid");
         }
     }
 }
