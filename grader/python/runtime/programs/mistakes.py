@@ -30,6 +30,8 @@ def assign7(): x = 1; x[0] = 1
 def assign8(): f.x.y = 1
 def del1(): del lst[9]
 def del2(): del d["q"]
+def del3(): del zz
+def aug3(): count += 1
 def aug1(): k = None; k += 1
 def aug2(): k = [1]; k += 1
 def loop1():
@@ -55,6 +57,16 @@ def dc3():
         x: float
     D(1).x = 2
 MISTAKES = [
+    u,
+    del3,
+    aug3,
+    lambda: lst + 1,
+    lambda: lst + tup,
+    lambda: [1] + (1,),
+    lambda: (1, 2) + [1],
+    lambda: lst.index(9),
+    lambda: ["a"].index("q"),
+    lambda: lst.remove(9),
     lambda: lst[5],
     lambda: lst["a"],
     lambda: lst[1.0],
