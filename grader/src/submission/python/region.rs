@@ -7,8 +7,7 @@ use memmap2::MmapMut;
 
 use super::instance::MEMORY_BYTES;
 
-/// Those that were given back, for the next instances: what the system has given for one is cleared in a third of the time that it takes
-/// to give it anew.
+/// Those that were given back, for the next instances, to which the system need not give their bytes anew.
 static KEPT: Mutex<Vec<MmapMut>> = Mutex::new(Vec::new());
 /// A task has two instances.
 const MOST_KEPT: usize = 2;
