@@ -17,6 +17,10 @@ lst = [1, 2, 3]; tup = (1, 2); d = {"a": 1}; s = "text"; x = 1.5
 def u():
     if False: y = 1
     return y
+def unpack7(): a, b = 1, 2, 3
+def unpack8(): a, b = "xyz"
+def unpack9(): a, b = {1: 2, 3: 4, 5: 6}
+def unpack10(): (a, b), c = (i for i in [[1, 2, 3], 4])
 def unpack2(): a, b, c = 1, 2
 def unpack3(): a, b = 1
 def unpack4(): a, *b, c = [1]
@@ -236,7 +240,24 @@ MISTAKES = [
     lambda: bytes("a"),
     lambda: range(1, 2, 0),
     lambda: range(),
-    unpack2, unpack3, unpack4, unpack5, unpack6, assign1, assign2, assign3, assign4, assign7, assign8, del1, del2, aug1, aug2, loop1, loop2, raise2, raise3, raise4, assert1, assert2, gen, gen2, dc3,
+    lambda: 1.0 / 0,
+    lambda: 1 / 0.0,
+    lambda: 1.0 // 0,
+    lambda: 1.0 % 0,
+    lambda: divmod(1.0, 0),
+    lambda: 1 // 0,
+    lambda: 1 % 0,
+    lambda: divmod(1, 0),
+    lambda: x / 0.0,
+    lambda: 1j / 0,
+    lambda: max([]),
+    lambda: min(()),
+    lambda: max(iter([])),
+    lambda: setattr(None, "x", 1),
+    lambda: setattr(1, "x", 1),
+    lambda: setattr([], "gain", 1),
+    lambda: setattr("a", "gain", 1),
+    unpack7, unpack8, unpack9, unpack10, unpack2, unpack3, unpack4, unpack5, unpack6, assign1, assign2, assign3, assign4, assign7, assign8, del1, del2, aug1, aug2, loop1, loop2, raise2, raise3, raise4, assert1, assert2, gen, gen2, dc3,
 ]
 for mistake in MISTAKES:
     try:

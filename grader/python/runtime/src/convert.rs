@@ -3,7 +3,9 @@
 use kinemark_python_numpy::NdArray;
 use kinemark_python_numpy::convert::sequence;
 use kinemark_python_wire::{Robot, Value};
-use rustpython_vm::builtins::{PyBaseObject, PyDict, PyDictRef, PyFloat, PyInt, PyStr, PyTypeRef};
+use rustpython_vm::builtins::{
+    PyBaseObject, PyDict, PyDictRef, PyFloat, PyInt, PyStr, PyStrInterned, PyTypeRef,
+};
 use rustpython_vm::function::FuncArgs;
 use rustpython_vm::{AsObject, PyObject, PyObjectRef, PyPayload, PyRef, PyResult, VirtualMachine};
 
@@ -158,6 +160,54 @@ pub(crate) fn from_value(value: &Value, class: &PyTypeRef, vm: &VirtualMachine) 
             record(class, dict)
         }
     })
+}
+
+/// A value of the grader that is given again and again, each time as if it were new.
+#[derive(Debug)]
+pub(crate) struct Given {
+    value: Value,
+    class: PyTypeRef,
+    /// Of a map: its fields, to be copied. Adding each to a new dict would take ten times as many instructions.
+    fields: Option<PyDictRef>,
+    /// Those of them that a submission could change.
+    changeable: Vec<(&'static PyStrInterned, Value)>,
+}
+
+impl Given {
+    /// This value, whose maps are of this class.
+    pub(crate) fn of(value: Value, class: PyTypeRef, vm: &VirtualMachine) -> PyResult<Self> {
+        let mut changeable = Vec::new();
+        let mut dict = None;
+        if let Value::Map(fields) = &value {
+            let made = vm.ctx.new_dict();
+            for (name, one) in fields {
+                let name = vm.ctx.intern_str(name.as_str());
+                made.set_item(name, from_value(one, &class, vm)?, vm)?;
+                if matches!(one, Value::List(_) | Value::Numbers { .. } | Value::Map(_)) {
+                    changeable.push((name, one.clone()));
+                }
+            }
+            dict = Some(made);
+        }
+        Ok(Self {
+            value,
+            class,
+            fields: dict,
+            changeable,
+        })
+    }
+
+    /// A new object of it.
+    pub(crate) fn made(&self, vm: &VirtualMachine) -> PyResult {
+        let Some(fields) = &self.fields else {
+            return from_value(&self.value, &self.class, vm);
+        };
+        let made = fields.copy().into_ref(&vm.ctx);
+        for (name, one) in &self.changeable {
+            made.set_item(*name, from_value(one, &self.class, vm)?, vm)?;
+        }
+        Ok(record(&self.class, made))
+    }
 }
 
 /// A vector, or a matrix of so many rows.

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::rc::Rc;
 
-use kinemark_python_wire::{Reads, Value};
+use kinemark_python_wire::Reads;
 use rustpython_vm::builtins::{PyDictRef, PyStr, PyType, PyTypeRef};
 use rustpython_vm::class::PyClassImpl as _;
 use rustpython_vm::function::{OptionalArg, PySetterValue};
@@ -14,7 +14,7 @@ use rustpython_vm::{
     atomic_func, pyclass,
 };
 
-use crate::convert::{array, from_value, record};
+use crate::convert::{Given, array, record};
 
 /// The fields, in the order in which they are listed.
 const FIELDS: [&str; 11] = [
@@ -36,8 +36,7 @@ const FIELDS: [&str; 11] = [
 pub(crate) struct Setting {
     pub(crate) task: PyObjectRef,
     /// Made anew in each call: what a submission does to it is gone with the observation.
-    pub(crate) target: Value,
-    pub(crate) target_class: PyTypeRef,
+    pub(crate) target: Given,
     /// The sensors by name, in the order of their readings.
     pub(crate) sensors: Vec<(String, Reads)>,
     /// Joints that move.
@@ -93,7 +92,6 @@ impl Observation {
         let Setting {
             task,
             target,
-            target_class,
             joints,
             ..
         } = &*self.setting;
@@ -109,7 +107,7 @@ impl Observation {
             "effort" => vector(2 * n, n),
             "tcp" => vector(3 * n, 3),
             "tcp_rotation" => array(Some(3), self.numbers(3 * n + 3, 9), vm),
-            "target" => from_value(target, target_class, vm)?,
+            "target" => target.made(vm)?,
             _ => self.sensors(3 * n + 12, vm)?,
         })
     }

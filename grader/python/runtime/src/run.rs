@@ -7,7 +7,7 @@ use rustpython_vm::builtins::{PyCode, PyDictRef, PyFunction, PyStr};
 use rustpython_vm::compiler::Mode;
 use rustpython_vm::{AsObject, PyObject, PyObjectRef, PyPayload, PyRef, PyResult, VirtualMachine};
 
-use crate::convert::{from_value, joints, robot, to_value};
+use crate::convert::{Given, from_value, joints, robot, to_value};
 use crate::host;
 use crate::observation::{Moment, Observation, Setting};
 use crate::raised::{not_compiled, raised, set_file};
@@ -62,8 +62,7 @@ fn loaded(
     let robot = robot(&load.robot, names, vm)?;
     let setting = Setting {
         task: vm.ctx.new_str(load.task).into(),
-        target: load.target,
-        target_class: names.target.clone(),
+        target: Given::of(load.target, names.target.clone(), vm)?,
         joints: joints(&load.robot),
         sensors: load.sensors,
         sensors_class: names.sensors.clone(),
