@@ -73,6 +73,55 @@ fn a_level_starts_elsewhere_starts_moving_or_pushes() {
     }
 }
 
+/// Two of the same levels under other names, in another order, with other shares.
+const AGAIN: &str = r#"
+[[tasks.checks]]
+name = "again"
+title = "Disturbed again"
+points = 4.0
+robustness = { check = "there", rungs = [
+    { name = "back", share = 1, pushes = [{ on = "sled", at_s = 0.5, for_s = 0.5, force_n = [-0.4, 0, 0] }] },
+    { name = "slow", share = 1, start_offset_rad_s = [0.1] },
+    { name = "moved", share = 2, start_offset_rad = [0.3] },
+] }
+"#;
+
+#[test]
+fn a_level_that_two_checks_share_is_judged_for_each_in_its_place() {
+    let lab = OwnLab::new("95-levels", &format!("{LAB}{AGAIN}"));
+    lab.write("labs/robots/carriage.toml", ROBOT);
+    let task = lab.graded(NOTHING, 1);
+    let disturbed = check(&task, "disturbed");
+    assert_eq!(disturbed["points"], 3.2, "{task}");
+    let again = check(&task, "again");
+    // nothing of `back`, half of `moved`; `slow` ends at 0.2 m, 0.1 m off: three quarters of a quarter
+    assert_eq!(again["points"], 2.75, "{task}");
+    assert!(message(again).contains("in the run `back`"), "{task}");
+    let rungs = task["digests"]["rungs"].as_array().expect("rungs");
+    let names: Vec<&str> = rungs
+        .iter()
+        .map(|rung| rung["rung"].as_str().expect("a name"))
+        .collect();
+    let all = [
+        "elsewhere",
+        "moving",
+        "both",
+        "pushed",
+        "pushed-back",
+        "back",
+        "slow",
+        "moved",
+    ];
+    assert_eq!(names, all);
+    let digest = |name: &str| {
+        let at = names.iter().position(|known| *known == name);
+        &rungs[at.expect("a level")]["digest"]
+    };
+    assert_eq!(digest("back"), digest("pushed-back"));
+    assert_eq!(digest("moved"), digest("elsewhere"));
+    assert_ne!(digest("slow"), digest("moving"));
+}
+
 #[test]
 fn levels_that_cannot_be_are_refused() {
     let offset = "start_offset_rad = [0.3]";

@@ -68,6 +68,14 @@ impl OneProcessor {
         }
     }
 
+    /// Goes to the one that was fixed, if one was: a thread begins where the one that started it runs.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn go_to_fixed(&mut self) {
+        if self.fixed.is_some() {
+            self.choose();
+        }
+    }
+
     /// The processors that stay free beside the chosen one; none where it was fixed, since others have their own work there.
     #[cfg(target_os = "linux")]
     pub(crate) fn others(&self) -> Vec<usize> {
@@ -92,6 +100,11 @@ impl OneProcessor {
     #[cfg(not(target_os = "linux"))]
     #[expect(clippy::unused_self, reason = "the same call on every system")]
     pub(crate) fn choose(&mut self) {}
+
+    /// No choice on this system.
+    #[cfg(not(target_os = "linux"))]
+    #[expect(clippy::unused_self, reason = "the same call on every system")]
+    pub(crate) fn go_to_fixed(&mut self) {}
 
     /// No choice on this system.
     #[cfg(not(target_os = "linux"))]

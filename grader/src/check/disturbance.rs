@@ -127,6 +127,17 @@ pub struct LevelStart {
 }
 
 impl Level {
+    /// Whether a run under `other` is the same: the share may differ, and the name where there is no noise, whose seed it is.
+    pub fn is_same_run(&self, other: &Self) -> bool {
+        let is_noisy = self.q_noise > 0.0 || self.qd_noise > 0.0;
+        let renamed = Self {
+            name: if is_noisy { &self.name } else { &other.name }.clone(),
+            share: other.share,
+            ..self.clone()
+        };
+        renamed == *other
+    }
+
     /// What is different, in words: `commands 0.01 s late, 0.2 kg more at the TCP`.
     pub fn in_words(&self) -> String {
         let mut parts = Vec::new();
@@ -341,8 +352,49 @@ mod tests {
     use super::{Level, LevelStart};
 
     #[test]
+    fn runs_are_the_same_where_nothing_but_names_and_shares_differ() {
+        let level = with_everything();
+        let named = |level: &Level| Level {
+            name: "another".to_owned(),
+            share: 2.0,
+            ..level.clone()
+        };
+        let quiet = Level {
+            q_noise: 0.0,
+            qd_noise: 0.0,
+            ..level.clone()
+        };
+        assert!(quiet.is_same_run(&named(&quiet)));
+        assert!(!level.is_same_run(&named(&level)), "another seed");
+        let share = Level {
+            share: 3.0,
+            ..level.clone()
+        };
+        assert!(level.is_same_run(&share));
+        let heavier = Level {
+            payload_kg: 0.3,
+            ..quiet.clone()
+        };
+        assert!(!quiet.is_same_run(&heavier));
+        let at_rest = Level {
+            start: None,
+            ..quiet.clone()
+        };
+        assert!(!quiet.is_same_run(&at_rest));
+    }
+
+    #[test]
     fn a_level_says_all_that_is_different() {
-        let level = Level {
+        let level = with_everything();
+        assert_eq!(
+            level.in_words(),
+            "noise of 0.0001 rad on q and 0.01 rad/s on qd, commands 0.02 s late, 0.2 kg more at the TCP, \
+             0.3 N m more friction in every joint, 1.3 times the damping, started +0.2 rad/s at `shoulder` and -0.05 rad at `elbow`"
+        );
+    }
+
+    fn with_everything() -> Level {
+        Level {
             name: "all".to_owned(),
             share: 1.0,
             q_noise: 1e-4,
@@ -361,11 +413,6 @@ mod tests {
                     ("elbow".to_owned(), -0.05, "rad"),
                 ],
             }),
-        };
-        assert_eq!(
-            level.in_words(),
-            "noise of 0.0001 rad on q and 0.01 rad/s on qd, commands 0.02 s late, 0.2 kg more at the TCP, \
-             0.3 N m more friction in every joint, 1.3 times the damping, started +0.2 rad/s at `shoulder` and -0.05 rad at `elbow`"
-        );
+        }
     }
 }

@@ -23,6 +23,7 @@ mod reached;
 pub mod reference_run;
 mod robustness_sweep;
 mod shown_cases;
+mod side_by_side;
 mod single_case;
 mod solution_end;
 mod staff_attempts;

@@ -1,11 +1,14 @@
 //! Robustness sweeps: the motion is repeated under every level of disturbance and judged by the repeated check.
 
+use std::collections::BTreeMap;
+
 use kinemark_sim::random::KeyedStream;
 use kinemark_sim::run::Disturbance;
 use kinemark_sim::text::number::seconds;
 use kinemark_sim::trace::Trace;
 
 use super::motion_judge::MotionJudge;
+use super::side_by_side;
 use crate::attempt::motion;
 use crate::attempt::{Attempt, Disclosure, Ended};
 use crate::check::robustness::{EarlyEnd, LevelOutcome};
@@ -29,26 +32,52 @@ pub(super) fn sweeps(
     undisturbed: &MotionFacts<'_>,
     host: &mut dyn Host,
 ) -> Result<Vec<SweepRuns>, Undecided> {
-    let mut sweeps = Vec::new();
+    let mut runs: Vec<LevelRun<'_>> = Vec::new();
+    let mut names = Vec::new();
     for check in judge.checks.iter() {
         let Some(sweep) = check.kind.sweep() else {
             continue;
         };
         let repeated = &judge.checks[sweep.check];
         let before = check::judge_motion(repeated, undisturbed);
-        let mut levels = Vec::new();
-        if before.score > 0.0 {
-            for level in &sweep.levels {
-                let attempt = attempt(judge, level, host);
-                levels.push(judged(judge, repeated, &attempt)?);
+        let earns = before.score > 0.0;
+        for (place, level) in sweep.levels.iter().enumerate().filter(|_| earns) {
+            let of = (names.len(), place, repeated);
+            match runs.iter_mut().find(|run| run.level.is_same_run(level)) {
+                Some(run) => run.judged_by.push(of),
+                None => runs.push(LevelRun {
+                    level,
+                    judged_by: vec![of],
+                }),
             }
         }
-        sweeps.push(SweepRuns {
-            check: check.name.clone(),
-            levels,
-        });
+        names.push(&check.name);
     }
-    Ok(sweeps)
+    let outcomes = side_by_side::in_order(&runs, host, |run, host| {
+        let attempt = attempt(judge, run.level, host);
+        let of_each = run.judged_by.iter();
+        let of_each = of_each.map(|(_, _, repeated)| judged(judge, repeated, &attempt));
+        of_each.collect::<Result<Vec<LevelOutcome>, Undecided>>()
+    })?;
+    let mut levels = vec![BTreeMap::new(); names.len()];
+    for (run, outcomes) in runs.iter().zip(outcomes) {
+        for ((of, place, _), outcome) in run.judged_by.iter().zip(outcomes) {
+            levels[*of].insert(*place, outcome);
+        }
+    }
+    let sweeps = names.into_iter().zip(levels);
+    let sweeps = sweeps.map(|(check, levels)| SweepRuns {
+        check: check.clone(),
+        levels: levels.into_values().collect(),
+    });
+    Ok(sweeps.collect())
+}
+
+/// A run that is made once, though several checks may be judged in it.
+struct LevelRun<'a> {
+    level: &'a Level,
+    /// Which sweeps have this level, and at which place, with the check that each of them repeats.
+    judged_by: Vec<(usize, usize, &'a Check<dyn MotionCheck>)>,
 }
 
 /// Runs the task under one level of disturbance.

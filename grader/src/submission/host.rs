@@ -15,6 +15,11 @@ pub trait Host {
 
     /// Called when a task begins, to show progress.
     fn begins(&mut self, _task: &str) {}
+
+    /// Other hosts, at most so many, for runs of the same submission at the same time: one for each processor that has nothing else to do.
+    fn beside(&mut self, _most: usize) -> Vec<Box<dyn Host + Send>> {
+        Vec::new()
+    }
 }
 
 /// Runs submissions in this process.

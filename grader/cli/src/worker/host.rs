@@ -28,6 +28,9 @@ pub(crate) struct WorkerHost {
     pub(crate) longest: Duration,
 }
 
+/// Most hosts beside one: each has a worker with memory of its own, and no check has more than ten levels.
+const MOST_BESIDE: usize = 9;
+
 /// Where a worker waits for the next task of its submission.
 type Kept = Arc<Mutex<Option<Worker>>>;
 
@@ -76,6 +79,8 @@ impl Host for WorkerHost {
             return Err(Stop::Interrupted.into());
         }
         let submission = digest_of(opening);
+        // the worker that is kept is there, this thread may be a new one
+        self.processor.go_to_fixed();
         let kept = self
             .kept
             .lock()
@@ -124,6 +129,20 @@ impl Host for WorkerHost {
             progress.set_message(task.to_owned());
             progress.inc(1);
         }
+    }
+
+    fn beside(&mut self, most: usize) -> Vec<Box<dyn Host + Send>> {
+        let free = self.processor.others().into_iter();
+        // their workers are not kept for the next task: a worker ends with the thread that started it
+        let hosts = free.take(most.min(MOST_BESIDE)).map(|processor| {
+            Box::new(Self {
+                // what one submission may take is for all of its workers together
+                spent: self.spent.clone(),
+                longest: self.longest,
+                ..Self::on(Some(processor))
+            }) as Box<dyn Host + Send>
+        });
+        hosts.collect()
     }
 }
 
@@ -274,5 +293,31 @@ impl Drop for Lease {
                 .replace(worker);
             drop(before);
         }
+    }
+}
+
+#[cfg(all(test, target_os = "linux"))]
+mod tests {
+    // no names of others: the tests of hostile workers take this file without its tests
+    #[test]
+    fn hosts_beside_one_have_the_processors_that_it_does_not_use_and_its_time() {
+        use super::{Host as _, MOST_BESIDE, WorkerHost};
+        // a thread of its own: the choice is the thread's
+        let thread = std::thread::spawn(|| {
+            let all = crate::one_processor::processors().len();
+            let mut host = WorkerHost::new(None);
+            assert!(host.beside(5).is_empty(), "no processor is chosen yet");
+            host.processor.choose();
+            assert_eq!(host.beside(5).len(), (all - 1).min(5));
+            assert_eq!(host.beside(50).len(), (all - 1).min(MOST_BESIDE));
+            assert!(host.beside(0).is_empty());
+            let mut fixed = WorkerHost::on(Some(0));
+            fixed.processor.choose();
+            assert!(
+                fixed.beside(5).is_empty(),
+                "a class has work for the others"
+            );
+        });
+        thread.join().expect("no panic");
     }
 }
