@@ -88,7 +88,7 @@ robustness = { check = "there", rungs = [
 
 #[test]
 fn a_level_that_two_checks_share_is_judged_for_each_in_its_place() {
-    let lab = OwnLab::new("95-levels", &format!("{LAB}{AGAIN}"));
+    let lab = OwnLab::new("95-levels", format!("{LAB}{AGAIN}"));
     lab.write("labs/robots/carriage.toml", ROBOT);
     let task = lab.graded(NOTHING, 1);
     let disturbed = check(&task, "disturbed");

@@ -14,3 +14,10 @@ pub(crate) use child::{Args, serve};
 pub(crate) use host::WorkerHost;
 pub(crate) use process::{Probe, probe};
 pub(crate) use seal::Layer;
+
+/// The command line of a worker, without the name of the program.
+#[derive(Debug, clap::Parser)]
+pub(crate) struct Line {
+    #[command(flatten)]
+    pub(crate) args: Args,
+}
